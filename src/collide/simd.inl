@@ -1,0 +1,77 @@
+// The colliders over Highway vectors. Include after "hwy/highway.h" inside a foreach_target file,
+// outside any namespace; defines harpoon::colliders::HWY_NAMESPACE once per instruction set.
+
+#if defined(HARPOON_COLLIDE_SIMD_INL) == defined(HWY_TARGET_TOGGLE)
+#ifdef HARPOON_COLLIDE_SIMD_INL
+#undef HARPOON_COLLIDE_SIMD_INL
+#else
+#define HARPOON_COLLIDE_SIMD_INL
+#endif
+
+#include "hwy/highway.h"
+
+HWY_BEFORE_NAMESPACE();
+namespace harpoon::colliders::HWY_NAMESPACE {
+
+namespace hn = hwy::HWY_NAMESPACE;
+
+/// A set of lanes. D is a Highway tag such as ScalableTag<float>.
+template <class D>
+struct SimdMask {
+  hn::Mask<D> m;
+};
+
+/// A vector of numbers that behaves like one number.
+template <class D>
+struct SimdReal {
+  hn::Vec<D> v;
+
+  SimdReal() = default;
+  HWY_INLINE SimdReal(hn::Vec<D> vector) : v(vector) {}  // NOLINT(google-explicit-constructor)
+  HWY_INLINE explicit SimdReal(double number)
+      : v(hn::Set(D(), static_cast<hn::TFromD<D>>(number))) {}
+
+  friend HWY_INLINE SimdReal operator+(const SimdReal& a, const SimdReal& b) {
+    return hn::Add(a.v, b.v);
+  }
+  friend HWY_INLINE SimdReal operator-(const SimdReal& a, const SimdReal& b) {
+    return hn::Sub(a.v, b.v);
+  }
+  friend HWY_INLINE SimdReal operator*(const SimdReal& a, const SimdReal& b) {
+    return hn::Mul(a.v, b.v);
+  }
+  friend HWY_INLINE SimdReal operator/(const SimdReal& a, const SimdReal& b) {
+    return hn::Div(a.v, b.v);
+  }
+  friend HWY_INLINE SimdMask<D> operator>(const SimdReal& a, const SimdReal& b) {
+    return {hn::Gt(a.v, b.v)};
+  }
+  friend HWY_INLINE SimdMask<D> operator<=(const SimdReal& a, const SimdReal& b) {
+    return {hn::Le(a.v, b.v)};
+  }
+};
+
+template <class D>
+HWY_INLINE SimdReal<D> sqrt(const SimdReal<D>& a) {
+  return hn::Sqrt(a.v);
+}
+
+template <class D>
+HWY_INLINE SimdMask<D> operator!(const SimdMask<D>& mask) {
+  return {hn::Not(mask.m)};
+}
+
+template <class D>
+HWY_INLINE SimdReal<D> select(const SimdMask<D>& mask, const SimdReal<D>& if_set,
+                              const SimdReal<D>& if_clear) {
+  return hn::IfThenElse(mask.m, if_set.v, if_clear.v);
+}
+
+#include "collide/vec3.inl"
+
+#include "collide/sphere_sphere.inl"
+
+}  // namespace harpoon::colliders::HWY_NAMESPACE
+HWY_AFTER_NAMESPACE();
+
+#endif

@@ -18,6 +18,8 @@ inline double select(bool mask, double if_set, double if_clear) {
 
 #include "collide/vec3.inl"
 
+#include "collide/aabb_overlap.inl"
+#include "collide/sphere_plane.inl"
 #include "collide/sphere_sphere.inl"
 
 }  // namespace harpoon::colliders

@@ -125,7 +125,12 @@ void Graph::name(NodeId node, const std::string& name) {
 
 void Graph::finish_names() {
   std::set<std::string> taken;
-  for (const Node& node : nodes_) taken.insert(node.name);
+  const auto take = [&](const std::string& name) {
+    if (!taken.insert(name).second) throw std::logic_error("two nodes are called " + name);
+  };
+  for (const Node& node : nodes_) {
+    if (!node.name.empty()) take(node.name);
+  }
   for (NodeId id = 0; id < nodes_.size(); ++id) {
     Node& node = nodes_[id];
     if (!node.name.empty()) continue;
@@ -134,8 +139,8 @@ void Graph::finish_names() {
     if (derived.size() > kLongestDerivedName || taken.contains(derived)) {
       derived = std::string(cell_of(node.op).name) + "_" + std::to_string(id);
     }
+    take(derived);
     node.name = derived;
-    if (!taken.insert(derived).second) throw std::logic_error("two nodes are called " + derived);
   }
 }
 

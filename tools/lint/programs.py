@@ -150,7 +150,7 @@ def verilog(tree: Tree):
         result = _run(command, tree.root)
         if result.returncode != 0:
             for line in result.stderr.splitlines():
-                if line.startswith("%"):
+                if line.startswith("%") and "Exiting due to" not in line:
                     match = re.match(r"%\S+: (\S+?):(\d+):(?:\d+:)? (.*)", line)
                     yield (Violation(match[1], int(match[2]), "verilog", match[3]) if match
                            else Violation("rtl/lint.f", 0, "verilog", line))

@@ -146,11 +146,16 @@ CASES = {
     programs.verilog: [
         ("a width mismatch",
          {"rtl/a.sv": "module a (input logic [3:0] a_i, output logic [1:0] b_o);\n"
-                      "  assign b_o = a_i;\nendmodule\n", "rtl/lint.f": "rtl/a.sv\n"},
+                      "  assign b_o = a_i;\nendmodule\n"},
          "rtl/a.sv",
-         {"rtl/a.sv": "module a (input logic [1:0] a_i, output logic [1:0] b_o);\n"
-                      "  assign b_o = a_i;\nendmodule\n", "rtl/lint.f": "rtl/a.sv\n"}),
-        ("no list of sources", {"rtl/a.sv": "module a;\nendmodule\n"}, "rtl/lint.f", {}),
+         {"rtl/x/b.sv": "module b (input logic [1:0] a_i, output logic [1:0] b_o);\n"
+                        "  assign b_o = a_i;\nendmodule\n",
+          "rtl/y/a.sv": "module a (input logic [1:0] a_i, output logic [1:0] b_o);\n"
+                        "  b u_b (.a_i, .b_o);\nendmodule\n"}),
+        ("a file that is not named after its module",
+         {"rtl/a.sv": "module b (input logic a_i, output logic b_o);\n"
+                      "  assign b_o = a_i;\nendmodule\n"},
+         "rtl/a.sv", {}),
     ],
 }
 

@@ -8,7 +8,6 @@ import os
 import pathlib
 import re
 import shlex
-import shutil
 import subprocess
 
 from tools.lint.tree import CPP, Tree, Violation
@@ -139,18 +138,30 @@ def _tidy_key(tree: Tree, entry: dict) -> str:
     return hashlib.sha256("\0".join(parts).replace(root, "").encode()).hexdigest()
 
 
+VERILATOR_MESSAGE = re.compile(r"%\S+: (\S+?):(\d+):(?:\d+:)? (.*)")
+
+
 def verilog(tree: Tree):
-    """Verilator -Wall finds nothing in rtl/: rtl/lint.f names the sources, top and waivers."""
-    if not tree.matching((".sv",)):
+    """Verilator -Wall finds nothing in any module of rtl/, each read as a top of its own; what is
+    waived stands with its reason in rtl/waivers.vlt."""
+    sources = [name for name in tree.matching((".sv",)) if name.startswith("rtl/")]
+    if not sources:
         return
-    if "rtl/lint.f" not in tree.files:
-        yield Violation("rtl/lint.f", 0, "verilog", "is missing: it names what Verilator must read")
-    elif shutil.which("verilator"):
-        command = ["verilator", "--lint-only", "-Wall", "-f", "rtl/lint.f"]
-        result = _run(command, tree.root)
-        if result.returncode != 0:
-            for line in result.stderr.splitlines():
-                if line.startswith("%") and "Exiting due to" not in line:
-                    match = re.match(r"%\S+: (\S+?):(\d+):(?:\d+:)? (.*)", line)
-                    yield (Violation(match[1], int(match[2]), "verilog", match[3]) if match
-                           else Violation("rtl/lint.f", 0, "verilog", line))
+    folders = sorted({str(pathlib.PurePosixPath(name).parent) for name in sources})
+    packages = [name for name in sources if name.endswith("_pkg.sv")]
+    command = ["verilator", "--lint-only", "-Wall"]
+    command += [word for folder in folders for word in ("-y", folder, f"-I{folder}")]
+    command += [name for name in ("rtl/waivers.vlt",) if name in tree.files]
+
+    def work(name: str):
+        files = packages if name in packages else [*packages, name]
+        result = _run([*command, *files], tree.root)
+        if result.returncode == 0:
+            return []
+        lines = [line for line in result.stderr.splitlines()
+                 if line.startswith("%") and "Exiting due to" not in line]
+        matches = [(line, VERILATOR_MESSAGE.match(line)) for line in lines]
+        return [Violation(match[1], int(match[2]), "verilog", match[3]) if match
+                else Violation(name, 0, "verilog", line) for line, match in matches]
+
+    yield from _all(work, sources)

@@ -46,18 +46,19 @@ module fp32_add #(
     hi_normal = |hi[30:23];
     lo_normal = |lo[30:23];
   end
-  logic        s2_sign_q, s2_minus_q, s2_nan_q, s2_inf_q;
+  logic [2:0]  s2_class_q;  // sign, NaN, infinity; likewise below
+  logic        s2_minus_q;
   logic [7:0]  s2_exp_q, s2_shift_q;
   logic [23:0] s2_hi_q, s2_lo_q;
   always_ff @(posedge clk_i) begin
-    s2_sign_q  <= hi[31];
+    s2_class_q <= {hi[31],
+                   (&hi[30:23]) & ((|hi[22:0]) | ((&lo[30:23]) & (hi[31] ^ lo[31]))),
+                   &hi[30:23]};
     s2_minus_q <= hi[31] ^ lo[31];
     s2_exp_q   <= {hi[30:24], hi[23] | ~hi_normal};
     s2_shift_q <= s1_swap_q ? s1_b_minus_a_q : s1_a_minus_b_q;
     s2_hi_q    <= {hi_normal, hi[22:0]};
     s2_lo_q    <= {lo_normal, lo[22:0]};
-    s2_inf_q   <= (&hi[30:23]);
-    s2_nan_q   <= (&hi[30:23]) & ((|hi[22:0]) | ((&lo[30:23]) & (hi[31] ^ lo[31])));
   end
 
   // Stage 3: align the smaller; what falls off is kept as a sticky bit.
@@ -69,51 +70,47 @@ module fp32_add #(
     aligned = {s2_lo_q, 3'b000} >> shift;
     sticky  = |({s2_lo_q, 3'b000} & ~(27'h7ff_ffff << shift));
   end
-  logic        s3_sign_q, s3_minus_q, s3_nan_q, s3_inf_q;
+  logic [2:0]  s3_class_q;
+  logic        s3_minus_q;
   logic [7:0]  s3_exp_q;
   logic [23:0] s3_hi_q;
   logic [26:0] s3_lo_q;
   always_ff @(posedge clk_i) begin
-    s3_sign_q  <= s2_sign_q;
+    s3_class_q <= s2_class_q;
     s3_minus_q <= s2_minus_q;
-    s3_nan_q   <= s2_nan_q;
-    s3_inf_q   <= s2_inf_q;
     s3_exp_q   <= s2_exp_q;
     s3_hi_q    <= s2_hi_q;
     s3_lo_q    <= {aligned[26:1], aligned[0] | sticky};
   end
 
   // Stage 4: add or subtract. The larger comes first, so the difference is never negative.
-  logic        s4_sign_q, s4_minus_q, s4_nan_q, s4_inf_q;
+  logic [2:0]  s4_class_q;
+  logic        s4_minus_q;
   logic [7:0]  s4_exp_q;
-  logic [4:0]  s4_limit_q;  // the exponent, at most 31: how far the sum may be shifted up
+  logic [27:0] s4_floor_q;  // a one where exponent 1 has its hidden bit
   logic [27:0] s4_sum_q;
   always_ff @(posedge clk_i) begin
-    s4_sign_q  <= s3_sign_q;
+    s4_class_q <= s3_class_q;
     s4_minus_q <= s3_minus_q;
-    s4_nan_q   <= s3_nan_q;
-    s4_inf_q   <= s3_inf_q;
     s4_exp_q   <= s3_exp_q;
-    s4_limit_q <= (|s3_exp_q[7:5]) ? 5'd31 : s3_exp_q[4:0];
+    s4_floor_q <= 28'h800_0000 >> s3_exp_q;
     s4_sum_q   <= {1'b0, s3_hi_q, 3'b000} + ({1'b0, s3_lo_q} ^ {28{s3_minus_q}})
                 + {27'd0, s3_minus_q};
   end
 
-  // Stage 5: leading zeros, limited by the exponent (gradual underflow); 0: carry out, 1: normal.
-  logic [4:0] zeros;
-  assign zeros = fp32_pkg::leading_zeros32({s4_sum_q, 4'h8});
-  logic        s5_sign_q, s5_minus_q, s5_nan_q, s5_inf_q;
+  // Stage 5: how far to shift up: to the leading one, but not below exponent 1 (gradual underflow).
+  // 0: there was a carry out; 1: as it is.
+  logic [2:0]  s5_class_q;
+  logic        s5_minus_q;
   logic [7:0]  s5_exp_q;  // after a carry out
   logic [4:0]  s5_shift_q;
   logic [27:0] s5_sum_q;
   always_ff @(posedge clk_i) begin
-    s5_sign_q  <= s4_sign_q;
+    s5_class_q <= s4_class_q;
     s5_minus_q <= s4_minus_q;
-    s5_nan_q   <= s4_nan_q;
-    s5_inf_q   <= s4_inf_q;
     s5_exp_q   <= s4_exp_q + 8'd1;
     s5_sum_q   <= s4_sum_q;
-    s5_shift_q <= (zeros > s4_limit_q) ? s4_limit_q : zeros;
+    s5_shift_q <= fp32_pkg::leading_zeros31({s4_sum_q | s4_floor_q, 3'b100});
   end
 
   // Stage 6: normalise; decide the rounding. Exact cancellation gives +0.
@@ -123,24 +120,24 @@ module fp32_add #(
     norm     = s5_sum_q << s5_shift_q;
     norm_exp = s5_exp_q - {3'd0, s5_shift_q};
   end
-  logic        s6_sign_q, s6_nan_q, s6_inf_q, s6_up_q;
+  logic [2:0]  s6_class_q;
+  logic        s6_up_q;
   logic [7:0]  s6_exp_q;
   logic [22:0] s6_frac_q;
   always_ff @(posedge clk_i) begin
-    s6_sign_q <= s5_sign_q & ~((s5_sum_q == 28'd0) & s5_minus_q);
-    s6_nan_q  <= s5_nan_q;
-    s6_inf_q  <= s5_inf_q | (norm_exp == 8'hff);
-    s6_exp_q  <= norm[27] ? norm_exp : 8'd0;
-    s6_frac_q <= norm[26:4];
-    s6_up_q   <= norm[3] & (norm[4] | (|norm[2:0]));
+    s6_class_q <= {s5_class_q[2] & ~((s5_sum_q == 28'd0) & s5_minus_q), s5_class_q[1],
+                   s5_class_q[0] | (norm_exp == 8'hff)};
+    s6_exp_q   <= norm[27] ? norm_exp : 8'd0;
+    s6_frac_q  <= norm[26:4];
+    s6_up_q    <= norm[3] & (norm[4] | (|norm[2:0]));
   end
 
   // Stage 7: round, pack. A carry out of the fraction increments the exponent, up to infinity.
   logic [30:0] rounded;
   assign rounded = {s6_exp_q, s6_frac_q} + {30'd0, s6_up_q};
   always_ff @(posedge clk_i) begin
-    if (s6_nan_q)      y_o <= fp32_pkg::QuietNan;
-    else if (s6_inf_q) y_o <= {s6_sign_q, 8'hff, 23'd0};
-    else               y_o <= {s6_sign_q, rounded};
+    if (s6_class_q[1])      y_o <= fp32_pkg::QuietNan;
+    else if (s6_class_q[0]) y_o <= {s6_class_q[2], 8'hff, 23'd0};
+    else                    y_o <= {s6_class_q[2], rounded};
   end
 endmodule

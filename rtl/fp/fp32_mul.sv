@@ -32,31 +32,26 @@ module fp32_mul (
     first    = a_normal ? {b_normal, b_i[22:0]} : {1'b0, a_i[22:0]};
     second   = a_normal ? {1'b1, a_i[22:0]} : {b_normal, b_i[22:0]};
   end
-  logic        s1_sign_q, s1_nan_q, s1_inf_q, s1_zero_q;
+  logic [3:0]  s1_class_q;  // sign, NaN, infinity, zero; likewise below
   logic [8:0]  s1_exp_q;  // sum of the biased exponents, 2..508
   logic [4:0]  s1_zeros_q;
   logic [23:0] s1_first_q, s1_second_q;
   always_ff @(posedge clk_i) begin
-    s1_sign_q   <= a_i[31] ^ b_i[31];
-    s1_nan_q    <= a_nan | b_nan | (a_inf & b_zero) | (b_inf & a_zero);
-    s1_inf_q    <= a_inf | b_inf;
-    s1_zero_q   <= a_zero | b_zero;
+    s1_class_q  <= {a_i[31] ^ b_i[31], a_nan | b_nan | (a_inf & b_zero) | (b_inf & a_zero),
+                    a_inf | b_inf, a_zero | b_zero};
     s1_exp_q    <= {1'b0, a_i[30:24], a_i[23] | ~a_normal}
                  + {1'b0, b_i[30:24], b_i[23] | ~b_normal};
-    s1_zeros_q  <= fp32_pkg::leading_zeros32({first, 8'h80});
+    s1_zeros_q  <= fp32_pkg::leading_zeros31({first, 7'h40});
     s1_first_q  <= first;
     s1_second_q <= second;
   end
 
   // Stage 2: normalise. The exponent is that of a product whose leading one is bit 46.
-  logic               s2_sign_q, s2_nan_q, s2_inf_q, s2_zero_q;
+  logic [3:0]         s2_class_q;
   logic signed [10:0] s2_exp_q;
   logic [23:0]        s2_first_q, s2_second_q;
   always_ff @(posedge clk_i) begin
-    s2_sign_q   <= s1_sign_q;
-    s2_nan_q    <= s1_nan_q;
-    s2_inf_q    <= s1_inf_q;
-    s2_zero_q   <= s1_zero_q;
+    s2_class_q  <= s1_class_q;
     s2_exp_q    <= $signed({2'b00, s1_exp_q}) - $signed({6'd0, s1_zeros_q}) - 11'sd127;
     s2_first_q  <= s1_first_q << s1_zeros_q;
     s2_second_q <= s1_second_q;
@@ -69,40 +64,33 @@ module fp32_mul (
   assign unused_product = product[48];
   mul24 u_mul24 (.clk_i, .a_i(s2_first_q), .b_i({1'b0, s2_second_q}), .y_o(product));
 
-  logic               s3_sign_q, s3_nan_q, s3_inf_q, s3_zero_q;
+  logic [3:0]         s3_class_q;
   logic signed [10:0] s3_exp_q, s3_minus_exp_q;
   always_ff @(posedge clk_i) begin
-    s3_sign_q      <= s2_sign_q;
-    s3_nan_q       <= s2_nan_q;
-    s3_inf_q       <= s2_inf_q;
-    s3_zero_q      <= s2_zero_q;
+    s3_class_q     <= s2_class_q;
     s3_exp_q       <= s2_exp_q;
     s3_minus_exp_q <= -s2_exp_q;
   end
-  logic       s4_sign_q, s4_nan_q, s4_inf_q, s4_zero_q, s4_normal_q, s4_top_q;
+  logic [3:0] s4_class_q;
+  logic       s4_normal_q, s4_top_q;
   logic [7:0] s4_exp_q;
   logic [4:0] s4_shift_q;
   always_ff @(posedge clk_i) begin
-    s4_sign_q   <= s3_sign_q;
-    s4_nan_q    <= s3_nan_q;
-    s4_inf_q    <= s3_inf_q | (s3_exp_q >= 11'sd255);
+    s4_class_q  <= {s3_class_q[3:2], s3_class_q[1] | (s3_exp_q >= 11'sd255), s3_class_q[0]};
     s4_top_q    <= (s3_exp_q == 11'sd254);
-    s4_zero_q   <= s3_zero_q;
     s4_normal_q <= (s3_exp_q >= 11'sd1);
     s4_exp_q    <= s3_exp_q[7:0];
     s4_shift_q  <= (s3_exp_q >= 11'sd0)        ? 5'd0
                  : (s3_minus_exp_q > 11'sd26) ? 5'd26
                                               : s3_minus_exp_q[4:0];
   end
-  logic       s5_sign_q, s5_nan_q, s5_inf_q, s5_zero_q, s5_normal_q, s5_top_q;
+  logic [3:0] s5_class_q;
+  logic       s5_normal_q, s5_top_q;
   logic [7:0] s5_exp_q;
   logic [4:0] s5_shift_q;
   always_ff @(posedge clk_i) begin
-    s5_sign_q   <= s4_sign_q;
-    s5_nan_q    <= s4_nan_q;
-    s5_inf_q    <= s4_inf_q;
+    s5_class_q  <= s4_class_q;
     s5_top_q    <= s4_top_q;
-    s5_zero_q   <= s4_zero_q;
     s5_normal_q <= s4_normal_q;
     s5_exp_q    <= s4_exp_q;
     s5_shift_q  <= s4_shift_q;
@@ -115,14 +103,12 @@ module fp32_mul (
     upper = product[47:22] >> s5_shift_q;
     lost  = |(product[47:22] & ~(26'h3ff_ffff << s5_shift_q));
   end
-  logic        s6_sign_q, s6_nan_q, s6_inf_q, s6_zero_q, s6_normal_q, s6_sticky_q;
+  logic [3:0]  s6_class_q;
+  logic        s6_normal_q, s6_sticky_q;
   logic [7:0]  s6_exp_q;
   logic [25:0] s6_upper_q;
   always_ff @(posedge clk_i) begin
-    s6_sign_q   <= s5_sign_q;
-    s6_nan_q    <= s5_nan_q;
-    s6_inf_q    <= s5_inf_q | (s5_top_q & product[47]);
-    s6_zero_q   <= s5_zero_q;
+    s6_class_q  <= {s5_class_q[3:2], s5_class_q[1] | (s5_top_q & product[47]), s5_class_q[0]};
     s6_normal_q <= s5_normal_q;
     s6_exp_q    <= s5_exp_q;
     s6_sticky_q <= (|product[21:0]) | lost;
@@ -136,27 +122,25 @@ module fp32_mul (
   // |       0       |   x    |      25      | bit 25 (0 or 1) |
   logic by_one;
   assign by_one = s6_normal_q & ~s6_upper_q[25];
-  logic        s7_sign_q, s7_nan_q, s7_inf_q, s7_zero_q, s7_up_q;
+  logic [3:0]  s7_class_q;
+  logic        s7_up_q;
   logic [7:0]  s7_exp_q;
   logic [22:0] s7_frac_q;
   always_ff @(posedge clk_i) begin
-    s7_sign_q <= s6_sign_q;
-    s7_nan_q  <= s6_nan_q;
-    s7_inf_q  <= s6_inf_q;
-    s7_zero_q <= s6_zero_q;
-    s7_exp_q  <= (s6_normal_q ? s6_exp_q : 8'd0) + {7'd0, s6_upper_q[25]};
-    s7_frac_q <= by_one ? s6_upper_q[23:1] : s6_upper_q[24:2];
-    s7_up_q   <= by_one ? s6_upper_q[0] & (s6_upper_q[1] | s6_sticky_q)
-                        : s6_upper_q[1] & (s6_upper_q[2] | s6_upper_q[0] | s6_sticky_q);
+    s7_class_q <= s6_class_q;
+    s7_exp_q   <= (s6_normal_q ? s6_exp_q : 8'd0) + {7'd0, s6_upper_q[25]};
+    s7_frac_q  <= by_one ? s6_upper_q[23:1] : s6_upper_q[24:2];
+    s7_up_q    <= by_one ? s6_upper_q[0] & (s6_upper_q[1] | s6_sticky_q)
+                         : s6_upper_q[1] & (s6_upper_q[2] | s6_upper_q[0] | s6_sticky_q);
   end
 
   // Stage 8: round, pack. A carry out of the fraction increments the exponent, up to infinity.
   logic [30:0] rounded;
   assign rounded = {s7_exp_q, s7_frac_q} + {30'd0, s7_up_q};
   always_ff @(posedge clk_i) begin
-    if (s7_nan_q)       y_o <= fp32_pkg::QuietNan;
-    else if (s7_inf_q)  y_o <= {s7_sign_q, 8'hff, 23'd0};
-    else if (s7_zero_q) y_o <= {s7_sign_q, 31'd0};
-    else                y_o <= {s7_sign_q, rounded};
+    if (s7_class_q[2])      y_o <= fp32_pkg::QuietNan;
+    else if (s7_class_q[1]) y_o <= {s7_class_q[3], 8'hff, 23'd0};
+    else if (s7_class_q[0]) y_o <= {s7_class_q[3], 31'd0};
+    else                    y_o <= {s7_class_q[3], rounded};
   end
 endmodule

@@ -4,20 +4,21 @@
 package fp32_pkg;
   localparam logic [31:0] QuietNan = 32'h7fc0_0000;
 
-  // Zeros above the first set bit, by nibbles: three or four levels of six-input tables.
+  // Zeros above the first set bit, by halving, so that the depth is logarithmic in every tool.
   // All zero gives 31.
-  function automatic logic [4:0] leading_zeros32(input logic [31:0] x);
-    logic [6:0] some;  // nibble i, counted from the top, has a set bit
-    logic [7:0] low0, low1;  // bits of the count inside nibble i
-    logic [2:0] first;
-    for (int i = 0; i < 8; i++) begin
-      low1[i] = ~(x[31 - 4 * i] | x[30 - 4 * i]);
-      low0[i] = ~x[31 - 4 * i] & (x[30 - 4 * i] | ~x[29 - 4 * i]);
-    end
-    for (int i = 0; i < 7; i++) some[i] = |x[28 - 4 * i +: 4];
-    first[2] = ~(|some[3:0]);
-    first[1] = ~(|some[1:0]) & ((|some[3:2]) | ~(|some[5:4]));
-    first[0] = ~some[0] & (some[1] | (~some[2] & (some[3] | (~some[4] & (some[5] | ~some[6])))));
-    leading_zeros32 = {first, low1[first], low0[first]};
+  function automatic logic [4:0] leading_zeros31(input logic [31:1] x);
+    logic [15:1] x16;
+    logic [7:1]  x8;
+    logic [3:1]  x4;
+    logic [4:0]  n;
+    n[4] = (x[31:16] == 16'd0);
+    x16  = n[4] ? x[15:1] : x[31:17];
+    n[3] = (x16[15:8] == 8'd0);
+    x8   = n[3] ? x16[7:1] : x16[15:9];
+    n[2] = (x8[7:4] == 4'd0);
+    x4   = n[2] ? x8[3:1] : x8[7:5];
+    n[1] = (x4[3:2] == 2'd0);
+    n[0] = n[1] ? ~x4[1] : ~x4[3];
+    leading_zeros31 = n;
   endfunction
 endpackage

@@ -33,7 +33,7 @@ module fp32_recip (
     s1_zero_q  <= (&a_i[30:23]);
     s1_inf_q   <= ~normal & ~(|a_i[22:0]);
     s1_exp_q   <= {a_i[30:24], a_i[23] | ~normal};
-    s1_zeros_q <= fp32_pkg::leading_zeros32({normal, a_i[22:0], 8'h80});
+    s1_zeros_q <= fp32_pkg::leading_zeros31({normal, a_i[22:0], 7'h40});
     s1_den_q   <= {normal, a_i[22:0]};
   end
 

@@ -33,7 +33,7 @@ module fp32_sqrt (
     s1_nan_q   <= ((&a_i[30:23]) & (|a_i[22:0])) | (a_i[31] & ~is_zero);
     s1_inf_q   <= (&a_i[30:23]);
     s1_exp_q   <= {a_i[30:24], a_i[23] | ~normal};
-    s1_zeros_q <= fp32_pkg::leading_zeros32({normal, a_i[22:0], 8'h80});
+    s1_zeros_q <= fp32_pkg::leading_zeros31({normal, a_i[22:0], 7'h40});
     s1_man_q   <= {normal, a_i[22:0]};
   end
 
@@ -50,36 +50,33 @@ module fp32_sqrt (
   end
 
   // Stages 3 to 26: one bit each. Before step g the root has g + 1 bits and the remainder, at most
-  // twice the root, g + 2. The two radicand bits of a step enter as low = bits - 1 and its borrow,
-  // decoded one stage ahead.
-  logic [11:0] side_q   [Steps];  // sign, NaN, infinity, zero, half the exponent
-  logic [23:0] rad_q    [Steps];
-  logic [1:0]  low_q    [Steps];
-  logic        borrow_q [Steps];
-  logic [24:0] rem_q    [Steps];
-  logic [23:0] root_q   [Steps+1];
+  // twice the root, g + 2. The two radicand bits of a step enter as low = bits - 1, with a borrow on
+  // top, decoded one stage ahead.
+  logic [11:0] side_q [Steps];  // sign, NaN, infinity, zero, half the exponent
+  logic [23:0] rad_q  [Steps];
+  logic [2:0]  low_q  [Steps];
+  logic [24:0] rem_q  [Steps];
+  logic [23:0] root_q [Steps+1];
   always_ff @(posedge clk_i) begin
-    side_q[0]   <= {s1_sign_q, s1_nan_q, s1_inf_q, s1_zero_q, odd_exp[8:1]};
-    rad_q[0]    <= {radicand[21:0], 2'b00};
-    low_q[0]    <= radicand[23:22] - 2'd1;
-    borrow_q[0] <= (radicand[23:22] == 2'd0);
-    rem_q[0]    <= {23'd0, first};
-    root_q[0]   <= 24'd1;
+    side_q[0] <= {s1_sign_q, s1_nan_q, s1_inf_q, s1_zero_q, odd_exp[8:1]};
+    rad_q[0]  <= {radicand[21:0], 2'b00};
+    low_q[0]  <= {1'b0, radicand[23:22]} - 3'd1;
+    rem_q[0]  <= {23'd0, first};
+    root_q[0] <= 24'd1;
   end
   for (genvar g = 0; g < Steps; g++) begin : gen_step
     logic [g+3:0] trial;  // (remainder - root - borrow) * 2; negative: the bit is 0
-    assign trial = {1'b0, rem_q[g][g+1:0], 1'b0} - {2'b00, root_q[g][g:0], borrow_q[g]};
+    assign trial = {1'b0, rem_q[g][g+1:0], 1'b0} - {2'b00, root_q[g][g:0], low_q[g][2]};
     logic unused_trial;  // the bits that cannot be set when the sign is clear
     assign unused_trial = ^trial;
     always_ff @(posedge clk_i) root_q[g+1] <= {root_q[g][22:0], ~trial[g+3]};
     if (g + 1 < Steps) begin : gen_next
       always_ff @(posedge clk_i) begin
-        side_q[g+1]   <= side_q[g];
-        rad_q[g+1]    <= {rad_q[g][21:0], 2'b00};
-        low_q[g+1]    <= rad_q[g][23:22] - 2'd1;
-        borrow_q[g+1] <= (rad_q[g][23:22] == 2'd0);
-        rem_q[g+1]    <= {{(22-g){1'b0}}, trial[g+3] ? {rem_q[g][g:0], low_q[g] + 2'd1}
-                                                     : {trial[g+1:1], low_q[g]}};
+        side_q[g+1] <= side_q[g];
+        rad_q[g+1]  <= {rad_q[g][21:0], 2'b00};
+        low_q[g+1]  <= {1'b0, rad_q[g][23:22]} - 3'd1;
+        rem_q[g+1]  <= {{(22-g){1'b0}}, trial[g+3] ? {rem_q[g][g:0], low_q[g][1:0] + 2'd1}
+                                                   : {trial[g+1:1], low_q[g][1:0]}};
       end
     end
   end

@@ -146,12 +146,13 @@ void Graph::finish_names() {
 
 NodeId Graph::copy_into(Graph& to, NodeId node, std::map<NodeId, NodeId>& copies) const {
   if (const auto found = copies.find(node); found != copies.end()) return found->second;
-  Node copy = nodes_[node];
+  const Node& copy = nodes_[node];
+  std::array<NodeId, 3> copied_arguments{};  // those that the operation does not use stay 0
   std::size_t i = 0;
   for (const NodeId argument : arguments(node)) {
-    copy.arguments[i++] = copy_into(to, argument, copies);
+    copied_arguments[i++] = copy_into(to, argument, copies);
   }
-  const NodeId id = to.insert(copy.op, copy.arguments, copy.bits);
+  const NodeId id = to.insert(copy.op, copied_arguments, copy.bits);
   to.nodes_[id].name = copy.name;
   copies.emplace(node, id);
   return id;

@@ -20,7 +20,7 @@ ROOMS = ("src/", "include/")
 def counts_by_line(build: pathlib.Path) -> dict[str, dict[int, int]]:
     """Execution counts by file (relative to the root) and line."""
     files: dict[str, dict[int, int]] = collections.defaultdict(dict)
-    data = [path.resolve() for path in build.rglob("*.gcno") if "harpoon_objects" in str(path)]
+    data = sorted(path.resolve() for path in (build / "src").rglob("*.gcno"))
     if not data:
         sys.exit(f"coverage: no instrumented object under {build}")
     for first in range(0, len(data), 20):

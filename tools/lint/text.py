@@ -40,7 +40,7 @@ MARKER = re.compile(r"\b(TO" r"DO|FIX" r"ME|X" r"XX|HA" r"CK)\b")
 C_COMMENT = re.compile(r"^\s*//+\s?(.*)$")
 HASH_COMMENT = re.compile(r"^\s*#\s?(.*)$")
 C_CODE = (
-    re.compile(r"^[\w:<>,*&\s.\->\[\]]*[\w\])]\s*(?:=|\+=|-=|<=|\()[^`]*;\s*$"),
+    re.compile(r"^(?:[\w:<>*&]+\s+){0,2}[\w:.\->\[\]*]+(?:\(|\s*[-+|&*/<]?=\s)[^`]*;\s*$"),
     re.compile(r"^(?:if|for|while|switch)\s*\(.*\)\s*\{?\s*$"),
     re.compile(r"^(?:return|break|continue|using|assign)\b[^`]*;\s*$"),
     re.compile(r"^(?:\}\s*else\s*\{|\}\s*;?|#include\s+[<\"].*)\s*$"),

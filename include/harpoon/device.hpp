@@ -64,7 +64,7 @@ struct Outcome {
   std::uint64_t pairs = 0;  ///< pairs tested
   std::uint64_t hits = 0;   ///< contacts found (grazing and real)
   /// Device time in nanoseconds where the device is simulated; empty on real machines.
-  std::optional<double> modelled_ns;
+  std::optional<double> modelled_ns = {};
 };
 
 /// A submitted batch. Movable, single owner; waiting twice returns the same result.

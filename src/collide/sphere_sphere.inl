@@ -29,7 +29,7 @@ struct ContactResult {
 };
 
 template <class Real>
-auto sphere_sphere(const SphereArg<Real>& s1, const SphereArg<Real>& s2) {
+HARPOON_COLLIDER_FN auto sphere_sphere(const SphereArg<Real>& s1, const SphereArg<Real>& s2) {
   const Vec3<Real> psub = s1.p - s2.p;
   const Real d = length(psub);
   const Real rsum = s1.r + s2.r;
@@ -41,7 +41,7 @@ auto sphere_sphere(const SphereArg<Real>& s1, const SphereArg<Real>& s2) {
   const Real k = Real(0.5) * (rsub - d);
   const Vec3<Real> pos = s1.p + normal * k;
   const Vec3<Real> unit_x{Real(1), Real(0), Real(0)};
-  return ContactResult<Real, decltype(hit)>{select(grazing, s1.p, pos),
-                                            select(grazing, unit_x, normal),
-                                            select(grazing, rsum, rsum - d), hit, grazing};
+  // The depth of Flow 2 needs no selection: there d is +0, and rsum - d is rsum to the bit.
+  return ContactResult<Real, decltype(hit)>{
+      select(grazing, s1.p, pos), select(grazing, unit_x, normal), rsum - d, hit, grazing};
 }

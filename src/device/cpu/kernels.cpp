@@ -1,0 +1,381 @@
+// One source for every instruction set: Highway compiles this file once per target. Indexed pairs
+// are first gathered into records, a block at a time, so that the memory system sees many
+// independent loads; from there on they are pairs like any other.
+
+#include "device/cpu/kernels.hpp"
+
+#include <algorithm>
+#include <cstring>
+
+#undef HWY_TARGET_INCLUDE
+#define HWY_TARGET_INCLUDE "device/cpu/kernels.cpp"
+#include "hwy/cache_control.h"
+#include "hwy/foreach_target.h"
+#include "hwy/highway.h"
+
+#include "collide/simd.inl"
+#include "device/cpu/records.inl"
+
+HWY_BEFORE_NAMESPACE();
+namespace harpoon::cpu::HWY_NAMESPACE {
+namespace {
+
+template <class Real>
+using Number = simd::SimdReal<Tag<Real>>;
+template <class Real>
+using Word = typename ContactOf<Real>::FlowWord;
+
+constexpr std::size_t kMaxLanes = HWY_MAX_BYTES / sizeof(float);
+
+/// The fields of N contacts; zero where the pair does not touch.
+template <class Real, class Mask>
+HWY_INLINE Fields<Real> contact_fields(const simd::ContactResult<Number<Real>, Mask>& c) {
+  const Tag<Real> d;
+  const hn::RebindToUnsigned<Tag<Real>> du;
+  const auto word = [&](Flow flow) HWY_ATTR {
+    return hn::BitCast(d, hn::Set(du, static_cast<Word<Real>>(flow)));
+  };
+  const auto flow =
+      hn::IfThenElse(c.hit.m, hn::IfThenElse(c.grazing.m, word(Flow::grazing), word(Flow::real)),
+                     word(Flow::fake));
+  const auto if_hit = [&](const Number<Real>& x)
+                          HWY_ATTR { return hn::IfThenElseZero(c.hit.m, x.v); };
+  return {{if_hit(c.pos.x), if_hit(c.pos.y), if_hit(c.pos.z), if_hit(c.normal.x)},
+          {if_hit(c.normal.y), if_hit(c.normal.z), if_hit(c.depth), flow}};
+}
+
+/// Contacts of exactly one vector of pairs; returns the number of hits.
+template <class Real>
+HWY_INLINE std::size_t collide_vector(const SpherePairOf<Real>* pairs, ContactOf<Real>* contacts) {
+  Args<Real> s1;
+  Args<Real> s2;
+  load_pairs(pairs, s1, s2);
+  const auto c = simd::sphere_sphere<Number<Real>>(s1, s2);
+  store_fields<Real>(contact_fields<Real>(c), contacts->pos);
+  return hn::CountTrue(Tag<Real>(), c.hit.m);
+}
+
+/// Contacts of exactly two vectors of pairs; returns the number of hits.
+template <class Real>
+HWY_INLINE std::size_t collide_two_vectors(const SpherePairOf<Real>* pairs,
+                                           ContactOf<Real>* contacts) {
+  using Two = simd::Twice<Number<Real>>;
+  const Tag<Real> d;
+  const std::size_t lanes = hn::Lanes(d);
+  Args<Real> a1, a2, b1, b2;
+  load_pairs(pairs, a1, a2);
+  load_pairs(pairs + lanes, b1, b2);
+  const auto both = [](const Args<Real>& a, const Args<Real>& b) HWY_ATTR {
+    return simd::SphereArg<Two>{{{a.p.x, b.p.x}, {a.p.y, b.p.y}, {a.p.z, b.p.z}}, {a.r, b.r}};
+  };
+  const auto c = simd::sphere_sphere<Two>(both(a1, b1), both(a2, b2));
+  using One = simd::ContactResult<Number<Real>, decltype(c.hit.lo)>;
+  const One low{{c.pos.x.lo, c.pos.y.lo, c.pos.z.lo},
+                {c.normal.x.lo, c.normal.y.lo, c.normal.z.lo},
+                c.depth.lo,
+                c.hit.lo,
+                c.grazing.lo};
+  const One high{{c.pos.x.hi, c.pos.y.hi, c.pos.z.hi},
+                 {c.normal.x.hi, c.normal.y.hi, c.normal.z.hi},
+                 c.depth.hi,
+                 c.hit.hi,
+                 c.grazing.hi};
+  store_fields<Real>(contact_fields<Real>(low), contacts->pos);
+  store_fields<Real>(contact_fields<Real>(high), contacts[lanes].pos);
+  return hn::CountTrue(d, low.hit.m) + hn::CountTrue(d, high.hit.m);
+}
+
+/// Fills the rest of a vector with pairs that do not touch.
+template <class Real>
+HWY_INLINE void pad_with_misses(SpherePairOf<Real>* begin, const SpherePairOf<Real>* end) {
+  for (; begin < end; ++begin) *begin = {{0, 0, 0, 0}, {1, 0, 0, 0}};
+}
+
+/// Contacts of fewer pairs than a vector holds.
+template <class Real>
+HWY_INLINE std::size_t collide_tail(const SpherePairOf<Real>* pairs, std::size_t count,
+                                    ContactOf<Real>* contacts) {
+  SpherePairOf<Real> in[kMaxLanes];
+  ContactOf<Real> out[kMaxLanes];
+  const std::size_t lanes = hn::Lanes(Tag<Real>());
+  std::memcpy(in, pairs, count * sizeof in[0]);
+  pad_with_misses(in + count, in + lanes);
+  const std::size_t hits = collide_vector(in, out);
+  std::memcpy(contacts, out, count * sizeof out[0]);
+  return hits;
+}
+
+template <class Real>
+HWY_INLINE std::size_t pairs_cached(const SpherePairOf<Real>* pairs, std::size_t count,
+                                    ContactOf<Real>* contacts) {
+  const std::size_t lanes = hn::Lanes(Tag<Real>());
+  std::size_t hits = 0;
+  std::size_t i = 0;
+  for (; i + 2 * lanes <= count; i += 2 * lanes) {
+    hits += collide_two_vectors(pairs + i, contacts + i);
+  }
+  if (i + lanes <= count) {
+    hits += collide_vector(pairs + i, contacts + i);
+    i += lanes;
+  }
+  if (i < count) hits += collide_tail(pairs + i, count - i, contacts + i);
+  return hits;
+}
+
+/// Copies with stores that bypass the caches; `to` is 16-byte aligned, `from` vector-aligned.
+template <class Real>
+HWY_INLINE void stream_copy(const Real* from, std::size_t count, Real* to) {
+  const hn::CappedTag<Real, 16 / sizeof(Real)> d;
+  for (std::size_t i = 0; i < count; i += hn::Lanes(d)) {
+    hn::Stream(hn::Load(d, from + i), d, to + i);
+  }
+}
+
+template <class Real>
+std::size_t pairs_streamed(const SpherePairOf<Real>* pairs, std::size_t count,
+                           ContactOf<Real>* contacts) {
+  constexpr std::size_t kBlock = 2 * kMaxLanes;
+  HWY_ALIGN ContactOf<Real> block[kBlock];
+  const std::size_t lanes = hn::Lanes(Tag<Real>());
+  std::size_t hits = 0;
+  std::size_t i = 0;
+  for (; i + kBlock <= count; i += kBlock) {
+    for (std::size_t k = 0; k < kBlock; k += 2 * lanes) {
+      hits += collide_two_vectors(pairs + i + k, block + k);
+    }
+    stream_copy<Real>(block->pos, 8 * kBlock, contacts[i].pos);
+  }
+  hwy::FlushStream();
+  return hits + pairs_cached(pairs + i, count - i, contacts + i);
+}
+
+template <class Real>
+std::size_t collide_pairs(const SpherePairOf<Real>* pairs, std::size_t count,
+                          ContactOf<Real>* contacts, bool stream) {
+  if (stream && reinterpret_cast<std::uintptr_t>(contacts) % 16 == 0) {
+    return pairs_streamed(pairs, count, contacts);
+  }
+  return pairs_cached(pairs, count, contacts);
+}
+
+template <class Real>
+HWY_INLINE void store_arrays(const Fields<Real>& f, const ContactArraysOf<Real>& c, std::size_t i) {
+  const Tag<Real> d;
+  const hn::RebindToUnsigned<Tag<Real>> du;
+  hn::StoreU(f.first.a, d, c.pos_x + i);
+  hn::StoreU(f.first.b, d, c.pos_y + i);
+  hn::StoreU(f.first.c, d, c.pos_z + i);
+  hn::StoreU(f.first.d, d, c.normal_x + i);
+  hn::StoreU(f.second.a, d, c.normal_y + i);
+  hn::StoreU(f.second.b, d, c.normal_z + i);
+  hn::StoreU(f.second.c, d, c.depth + i);
+  hn::StoreU(hn::BitCast(du, f.second.d), du, c.flow + i);
+}
+
+/// One pair of arrays, by way of a record.
+template <class Real>
+HWY_INLINE std::size_t collide_array_element(const SpherePairArraysOf<Real>& p, std::size_t i,
+                                             const ContactArraysOf<Real>& c) {
+  const SpherePairOf<Real> pair{{p.x1[i], p.y1[i], p.z1[i], p.r1[i]},
+                                {p.x2[i], p.y2[i], p.z2[i], p.r2[i]}};
+  ContactOf<Real> contact;
+  const std::size_t hits = collide_tail(&pair, 1, &contact);
+  c.pos_x[i] = contact.pos[0];
+  c.pos_y[i] = contact.pos[1];
+  c.pos_z[i] = contact.pos[2];
+  c.normal_x[i] = contact.normal[0];
+  c.normal_y[i] = contact.normal[1];
+  c.normal_z[i] = contact.normal[2];
+  c.depth[i] = contact.depth;
+  c.flow[i] = contact.flow_word;
+  return hits;
+}
+
+template <class Real>
+std::size_t collide_arrays(const SpherePairArraysOf<Real>& p, std::size_t begin, std::size_t end,
+                           const ContactArraysOf<Real>& c) {
+  const Tag<Real> d;
+  const std::size_t lanes = hn::Lanes(d);
+  std::size_t hits = 0;
+  std::size_t i = begin;
+  for (; i + lanes <= end; i += lanes) {
+    const auto at = [&](const Real* array)
+                        HWY_ATTR { return Number<Real>(hn::LoadU(d, array + i)); };
+    const Args<Real> s1{{at(p.x1), at(p.y1), at(p.z1)}, at(p.r1)};
+    const Args<Real> s2{{at(p.x2), at(p.y2), at(p.z2)}, at(p.r2)};
+    const auto result = simd::sphere_sphere<Number<Real>>(s1, s2);
+    store_arrays(contact_fields<Real>(result), c, i);
+    hits += hn::CountTrue(d, result.hit.m);
+  }
+  for (; i < end; ++i) hits += collide_array_element(p, i, c);
+  return hits;
+}
+
+/// Pairs gathered at a time: enough loads under way to hide the latency of memory, few enough that
+/// the records stay in the first-level cache.
+constexpr std::size_t kGatherBlock = 128;
+
+template <class Real>
+HWY_INLINE void copy_sphere(const SphereOf<Real>& from, SphereOf<Real>& to) {
+  const hn::CappedTag<Real, 4> d;
+  for (std::size_t k = 0; k < 4; k += hn::Lanes(d)) {
+    hn::StoreU(hn::LoadU(d, &from.x + k), d, &to.x + k);
+  }
+}
+
+/// Which of one vector of pairs touch, one bit a lane (see pair_of_lane).
+template <class Real>
+HWY_INLINE std::uint64_t hit_lanes(const SpherePairOf<Real>* pairs) {
+  const Tag<Real> d;
+  Args<Real> s1;
+  Args<Real> s2;
+  load_pairs(pairs, s1, s2);
+  const auto miss = simd::length(s1.p - s2.p) > s1.r + s2.r;
+  std::uint8_t bytes[kMaxLanes / 8 + sizeof(std::uint64_t)] = {};
+  hn::StoreMaskBits(d, (!miss).m, bytes);
+  std::uint64_t bits;
+  std::memcpy(&bits, bytes, sizeof bits);
+  return bits;
+}
+
+/// Copies `count` pairs so that lane k of a vector of them is pair k.
+template <class Real>
+HWY_INLINE void gather_in_lane_order(const SphereOf<Real>* spheres, const IndexPair* pairs,
+                                     std::size_t count, SpherePairOf<Real>* block) {
+  const std::size_t lanes = hn::Lanes(Tag<Real>());
+  std::size_t slot[kMaxLanes];
+  for (std::size_t lane = 0; lane < lanes; ++lane) slot[lane] = pair_of_lane<Real>(lane);
+  for (std::size_t first = 0; first < count; first += lanes) {
+    const std::size_t used = std::min(lanes, count - first);
+    for (std::size_t lane = 0; lane < used; ++lane) {
+      SpherePairOf<Real>& to = block[first + slot[lane]];
+      copy_sphere(spheres[pairs[first + lane].g1], to.s1);
+      copy_sphere(spheres[pairs[first + lane].g2], to.s2);
+    }
+    for (std::size_t lane = used; lane < lanes; ++lane) {
+      pad_with_misses(block + first + slot[lane], block + first + slot[lane] + 1);
+    }
+  }
+}
+
+template <class Real>
+std::size_t find_hits(const SphereOf<Real>* spheres, const IndexPair* pairs, std::size_t count,
+                      std::uint32_t* hits) {
+  const std::size_t lanes = hn::Lanes(Tag<Real>());
+  HWY_ALIGN SpherePairOf<Real> block[kGatherBlock + kMaxLanes];
+  std::size_t found = 0;
+  for (std::size_t base = 0; base < count; base += kGatherBlock) {
+    const std::size_t size = std::min(kGatherBlock, count - base);
+    gather_in_lane_order(spheres, pairs + base, size, block);
+    for (std::size_t k = 0; k < size; k += lanes) {
+      for (std::uint64_t bits = hit_lanes(block + k); bits != 0; bits &= bits - 1) {
+        const std::size_t lane = hwy::Num0BitsBelowLS1Bit_Nonzero64(bits);
+        hits[found++] = static_cast<std::uint32_t>(base + k + lane);
+      }
+    }
+  }
+  return found;
+}
+
+template <class Real>
+void fill_hits(const SphereOf<Real>* spheres, const IndexPair* pairs, const std::uint32_t* hits,
+               std::size_t count, BodyContactOf<Real>* contacts) {
+  SpherePairOf<Real> in[kGatherBlock];
+  ContactOf<Real> out[kGatherBlock];
+  for (std::size_t base = 0; base < count; base += kGatherBlock) {
+    const std::size_t size = std::min(kGatherBlock, count - base);
+    for (std::size_t k = 0; k < size; ++k) {
+      const IndexPair& pair = pairs[hits[base + k]];
+      copy_sphere(spheres[pair.g1], in[k].s1);
+      copy_sphere(spheres[pair.g2], in[k].s2);
+    }
+    pairs_cached(in, size, out);
+    for (std::size_t k = 0; k < size; ++k) {
+      BodyContactOf<Real>& to = contacts[base + k];
+      std::memcpy(static_cast<void*>(&to), &out[k], 7 * sizeof(Real));
+      to.g1 = pairs[hits[base + k]].g1;
+      to.g2 = pairs[hits[base + k]].g2;
+    }
+  }
+}
+
+std::uint32_t max_index(const IndexPair* pairs, std::size_t count) {
+  std::uint32_t largest = 0;
+  for (std::size_t i = 0; i < count; ++i) {
+    largest = std::max(largest, std::max(pairs[i].g1, pairs[i].g2));
+  }
+  return largest;
+}
+
+template <class Real>
+constexpr KernelsOf<Real> kKernelsOf = {collide_pairs<Real>, collide_arrays<Real>, find_hits<Real>,
+                                        fill_hits<Real>};
+
+const Kernels* get_kernels() {
+  static constexpr Kernels kKernels = {kKernelsOf<float>, kKernelsOf<double>, max_index};
+  return &kKernels;
+}
+
+}  // namespace
+}  // namespace harpoon::cpu::HWY_NAMESPACE
+HWY_AFTER_NAMESPACE();
+
+#if HWY_ONCE
+namespace harpoon::cpu {
+namespace {
+
+HWY_EXPORT(get_kernels);
+
+/// Targets that this build holds and this machine runs, as Highway's bits: the lowest is widest.
+std::int64_t usable_targets() noexcept {
+  return hwy::SupportedTargets() & HWY_TARGETS;
+}
+
+const Kernels* kernels_of_target(std::int64_t target) noexcept {
+#if (HWY_TARGETS & (HWY_TARGETS - 1)) == 0
+  return target == HWY_TARGETS ? HWY_DISPATCH_TABLE(get_kernels)[0]() : nullptr;
+#else
+  hwy::ChosenTarget chosen;
+  chosen.Update(target);
+  return HWY_DISPATCH_TABLE(get_kernels)[chosen.GetIndex()]();
+#endif
+}
+
+/// The field's name of an instruction set where Highway's differs: its fallback target is compiled
+/// for the architecture's baseline (on x86-64 that is SSE2), its AVX3 is AVX-512.
+std::string_view name_of(std::int64_t target) noexcept {
+  if (target == HWY_EMU128 || target == HWY_SCALAR) {
+    return HWY_ARCH_X86 != 0 ? "SSE2" : "baseline";
+  }
+  if (target == HWY_AVX3) return "AVX-512";
+  return hwy::TargetName(target);
+}
+
+}  // namespace
+
+std::vector<std::string> instruction_set_names() {
+  std::vector<std::string> names;
+  for (std::int64_t rest = usable_targets(); rest != 0; rest &= rest - 1) {
+    names.emplace_back(name_of(rest & -rest));
+  }
+  std::reverse(names.begin(), names.end());
+  return names;
+}
+
+std::string_view widest_instruction_set() noexcept {
+  const std::int64_t targets = usable_targets();
+  return name_of(targets & -targets);
+}
+
+const Kernels* find_kernels(std::string_view instruction_set) noexcept {
+  for (std::int64_t rest = usable_targets(); rest != 0; rest &= rest - 1) {
+    const std::int64_t target = rest & -rest;
+    if (instruction_set.empty() || instruction_set == name_of(target)) {
+      return kernels_of_target(target);
+    }
+  }
+  return nullptr;
+}
+
+}  // namespace harpoon::cpu
+#endif

@@ -121,7 +121,7 @@ class HARPOON_API Device {
   [[nodiscard]] virtual Transaction submit(const Batch& batch) noexcept = 0;
 
   /// `submit` and wait.
-  [[nodiscard]] Result<Outcome> run(const Batch& batch) noexcept;
+  [[nodiscard]] virtual Result<Outcome> run(const Batch& batch) noexcept;
 };
 
 /// Runs `body(i)` once for every i in [0, tasks), in any order and on any threads, and returns when

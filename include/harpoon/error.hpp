@@ -54,6 +54,7 @@ class [[nodiscard]] Result {
 
   const T& operator*() const& noexcept { return value(); }
   T& operator*() & noexcept { return value(); }
+  T&& operator*() && noexcept { return std::move(*this).value(); }
   const T* operator->() const noexcept { return &value(); }
   T* operator->() noexcept { return &value(); }
 

@@ -6,8 +6,8 @@
 // Number format: binary32, nearest even, subnormals kept; a NaN is a class.
 // Reset (synchronous, active low): for the pointers of the delay lines only.
 //
-// Cells: 6 add, 6 sub, 10 mul, 1 recip, 1 sqrt, 7 select, 1 greater, 1 less_equal, 1 not.
-// Delay lines: 14, holding 24870 bits in all.
+// Cells: 6 add, 6 sub, 10 mul, 1 recip, 1 sqrt, 6 select, 1 greater, 1 less_equal, 1 not.
+// Delay lines: 12, holding 24678 bits in all.
 //
 // Schedule (cycle the operands enter, cycle the result is ready):
 //      0    7  psub_x = p1_x - p2_x
@@ -28,7 +28,6 @@
 //     56   57  miss = d > rsum
 //     57   57  hit = not miss
 //     63   71  k = 0.5 * rsub_d
-//     63   64  depth = grazing ? rsum : rsum_d
 //     84   92  cnormal_x = psub_x * d1
 //     84   92  cnormal_y = psub_y * d1
 //     84   92  cnormal_z = psub_z * d1
@@ -66,12 +65,12 @@ module sphere_sphere (
   output logic        grazing_o
 );
   logic [31:0] psub_x, psub_y, psub_z, rsub, rsum, psub2_x, psub2_y, psub2_z, d2_xy, d2, d, d1,
-               rsub_d, rsum_d, k, depth, cnormal_x, cnormal_y, cnormal_z, cnk_x, cnk_y, cnk_z,
-               normal_x, normal_y, normal_z, cpos_x, cpos_y, cpos_z, pos_x, pos_y, pos_z, p1_x_t100,
+               rsub_d, rsum_d, k, cnormal_x, cnormal_y, cnormal_z, cnk_x, cnk_y, cnk_z, normal_x,
+               normal_y, normal_z, cpos_x, cpos_y, cpos_z, pos_x, pos_y, pos_z, p1_x_t100,
                p1_y_t100, p1_z_t100, rsub_t56, rsum_t56, psub_x_t84, psub_y_t84, psub_z_t84,
-               psub2_z_t22, rsum_t63, depth_t108, k_t92, normal_x_t108, normal_y_t108,
-               normal_z_t108, p1_x_t107, p1_y_t107, p1_z_t107;
-  logic        grazing, miss, hit, grazing_t63, hit_t108, grazing_t92, grazing_t107, grazing_t108;
+               psub2_z_t22, rsum_d_t108, k_t92, normal_x_t108, normal_y_t108, normal_z_t108,
+               p1_x_t107, p1_y_t107, p1_z_t107;
+  logic        grazing, miss, hit, grazing_t92, hit_t108, grazing_t107, grazing_t108;
 
   // Cycle 0
   fp32_add #(.Subtract(1'b1)) u_psub_x (.clk_i, .a_i(p1_x_i), .b_i(p2_x_i), .y_o(psub_x));
@@ -115,18 +114,7 @@ module sphere_sphere (
   assign hit = ~miss;
 
   // Cycle 63
-  delay_line #(.Width(32), .Latency(7)) u_delay_56_to_63 (
-    .clk_i, .rst_ni,
-    .d_i(rsum_t56),
-    .q_o(rsum_t63)
-  );
-  delay_line #(.Width(1), .Latency(6)) u_delay_57_to_63 (
-    .clk_i, .rst_ni,
-    .d_i(grazing),
-    .q_o(grazing_t63)
-  );
   fp32_mul u_k (.clk_i, .a_i(32'h3f00_0000), .b_i(rsub_d), .y_o(k));
-  fp32_select u_depth (.clk_i, .mask_i(grazing_t63), .a_i(rsum_t63), .b_i(rsum_d), .y_o(depth));
 
   // Cycle 84
   delay_line #(.Width(96), .Latency(77)) u_delay_7_to_84 (
@@ -139,9 +127,9 @@ module sphere_sphere (
   fp32_mul u_cnormal_z (.clk_i, .a_i(psub_z_t84), .b_i(d1), .y_o(cnormal_z));
 
   // Cycle 92
-  delay_line #(.Width(1), .Latency(29)) u_delay_63_to_92 (
+  delay_line #(.Width(1), .Latency(35)) u_delay_57_to_92 (
     .clk_i, .rst_ni,
-    .d_i(grazing_t63),
+    .d_i(grazing),
     .q_o(grazing_t92)
   );
   delay_line #(.Width(32), .Latency(21)) u_delay_71_to_92 (
@@ -190,10 +178,10 @@ module sphere_sphere (
     .d_i(hit),
     .q_o(hit_t108)
   );
-  delay_line #(.Width(32), .Latency(44)) u_delay_64_to_108 (
+  delay_line #(.Width(32), .Latency(45)) u_delay_63_to_108 (
     .clk_i, .rst_ni,
-    .d_i(depth),
-    .q_o(depth_t108)
+    .d_i(rsum_d),
+    .q_o(rsum_d_t108)
   );
   delay_line #(.Width(96), .Latency(15)) u_delay_93_to_108 (
     .clk_i, .rst_ni,
@@ -213,7 +201,7 @@ module sphere_sphere (
   assign normal_x_o = normal_x_t108;
   assign normal_y_o = normal_y_t108;
   assign normal_z_o = normal_z_t108;
-  assign depth_o = depth_t108;
+  assign depth_o = rsum_d_t108;
   assign hit_o = hit_t108;
   assign grazing_o = grazing_t108;
 endmodule

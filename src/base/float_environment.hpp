@@ -20,7 +20,8 @@ class FloatEnvironment {
   FloatEnvironment() noexcept {
 #if defined(__SSE2__)
     saved_ = _mm_getcsr();
-    _mm_setcsr(kAllMasked);
+    // Writing the register is slow, and most callers already run in the contract's environment.
+    if ((saved_ & ~kFlags) != kAllMasked) _mm_setcsr(kAllMasked);
 #else
     std::feholdexcept(&saved_);
     std::fesetenv(FE_DFL_ENV);
@@ -30,7 +31,7 @@ class FloatEnvironment {
   ~FloatEnvironment() {
     asm volatile("" ::: "memory");
 #if defined(__SSE2__)
-    _mm_setcsr(saved_);
+    if (_mm_getcsr() != saved_) _mm_setcsr(saved_);
 #else
     std::fesetenv(&saved_);
 #endif
@@ -41,6 +42,7 @@ class FloatEnvironment {
  private:
 #if defined(__SSE2__)
   static constexpr unsigned kAllMasked = 0x1F80;  // nearest even, no FTZ, no DAZ, no flags
+  static constexpr unsigned kFlags = 0x003F;
   unsigned saved_;
 #else
   std::fenv_t saved_;

@@ -67,59 +67,6 @@ HWY_INLINE SimdReal<D> select(const SimdMask<D>& mask, const SimdReal<D>& if_set
   return hn::IfThenElse(mask.m, if_set.v, if_clear.v);
 }
 
-template <class Mask>
-struct TwiceMask {
-  Mask lo, hi;
-};
-template <class Mask>
-TwiceMask(Mask, Mask) -> TwiceMask<Mask>;
-
-/// Two numbers that behave like one: two independent chains of arithmetic side by side, because one
-/// chain with its square root and division is longer than a processor can look ahead.
-template <class Real>
-struct Twice {
-  Real lo, hi;
-
-  Twice() = default;
-  HWY_INLINE Twice(const Real& low, const Real& high) : lo(low), hi(high) {}
-  HWY_INLINE explicit Twice(double number) : lo(number), hi(number) {}
-
-  friend HWY_INLINE Twice operator+(const Twice& a, const Twice& b) {
-    return {a.lo + b.lo, a.hi + b.hi};
-  }
-  friend HWY_INLINE Twice operator-(const Twice& a, const Twice& b) {
-    return {a.lo - b.lo, a.hi - b.hi};
-  }
-  friend HWY_INLINE Twice operator*(const Twice& a, const Twice& b) {
-    return {a.lo * b.lo, a.hi * b.hi};
-  }
-  friend HWY_INLINE Twice operator/(const Twice& a, const Twice& b) {
-    return {a.lo / b.lo, a.hi / b.hi};
-  }
-  friend HWY_INLINE auto operator>(const Twice& a, const Twice& b) {
-    return TwiceMask{a.lo > b.lo, a.hi > b.hi};
-  }
-  friend HWY_INLINE auto operator<=(const Twice& a, const Twice& b) {
-    return TwiceMask{a.lo <= b.lo, a.hi <= b.hi};
-  }
-};
-
-template <class Real>
-HWY_INLINE Twice<Real> sqrt(const Twice<Real>& a) {
-  return {sqrt(a.lo), sqrt(a.hi)};
-}
-
-template <class Mask>
-HWY_INLINE TwiceMask<Mask> operator!(const TwiceMask<Mask>& mask) {
-  return {!mask.lo, !mask.hi};
-}
-
-template <class Mask, class Real>
-HWY_INLINE Twice<Real> select(const TwiceMask<Mask>& mask, const Twice<Real>& if_set,
-                              const Twice<Real>& if_clear) {
-  return {select(mask.lo, if_set.lo, if_clear.lo), select(mask.hi, if_set.hi, if_clear.hi)};
-}
-
 #include "collide/vec3.inl"
 
 #include "collide/sphere_sphere.inl"

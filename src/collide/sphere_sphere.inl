@@ -21,6 +21,13 @@ struct SphereArg {
   Real r;
 };
 
+/// Stage 1 of Algorithm 2: what depends on the operands alone, with the distance as one step.
+template <class Real>
+struct Separation {
+  Vec3<Real> psub;
+  Real d, rsum, rsub;
+};
+
 template <class Real, class Mask>
 struct ContactResult {
   Vec3<Real> pos, normal;
@@ -29,19 +36,33 @@ struct ContactResult {
 };
 
 template <class Real>
-HARPOON_COLLIDER_FN auto sphere_sphere(const SphereArg<Real>& s1, const SphereArg<Real>& s2) {
+HARPOON_COLLIDER_FN Separation<Real> separation(const SphereArg<Real>& s1,
+                                                const SphereArg<Real>& s2) {
   const Vec3<Real> psub = s1.p - s2.p;
-  const Real d = length(psub);
-  const Real rsum = s1.r + s2.r;
-  const Real rsub = s2.r - s1.r;
-  const auto hit = !(d > rsum);
-  const auto grazing = d <= Real(0);
-  const Real d1 = Real(1) / d;
-  const Vec3<Real> normal = psub * d1;
-  const Real k = Real(0.5) * (rsub - d);
-  const Vec3<Real> pos = s1.p + normal * k;
+  return {psub, length(psub), s1.r + s2.r, s2.r - s1.r};
+}
+
+template <class Real>
+HARPOON_COLLIDER_FN auto touches(const Separation<Real>& s) {
+  return !(s.d > s.rsum);
+}
+
+/// Stages 2 to 5 of Algorithm 2.
+template <class Real>
+HARPOON_COLLIDER_FN auto contact(const Vec3<Real>& p1, const Separation<Real>& s) {
+  const auto hit = touches(s);
+  const auto grazing = s.d <= Real(0);
+  const Real d1 = Real(1) / s.d;
+  const Vec3<Real> normal = s.psub * d1;
+  const Real k = Real(0.5) * (s.rsub - s.d);
+  const Vec3<Real> pos = p1 + normal * k;
   const Vec3<Real> unit_x{Real(1), Real(0), Real(0)};
   // The depth of Flow 2 needs no selection: there d is +0, and rsum - d is rsum to the bit.
   return ContactResult<Real, decltype(hit)>{
-      select(grazing, s1.p, pos), select(grazing, unit_x, normal), rsum - d, hit, grazing};
+      select(grazing, p1, pos), select(grazing, unit_x, normal), s.rsum - s.d, hit, grazing};
+}
+
+template <class Real>
+HARPOON_COLLIDER_FN auto sphere_sphere(const SphereArg<Real>& s1, const SphereArg<Real>& s2) {
+  return contact(s1.p, separation(s1, s2));
 }

@@ -45,11 +45,15 @@ class CpuDevice final : public Device {
   [[nodiscard]] const Capabilities& capabilities() const noexcept override { return capabilities_; }
 
   [[nodiscard]] Transaction submit(const Batch& batch) noexcept override {
+    return Transaction(CpuDevice::run(batch));
+  }
+
+  [[nodiscard]] Result<Outcome> run(const Batch& batch) noexcept override {
     try {
-      if (auto error = validate(batch)) return Transaction(*std::move(error));
-      return Transaction(std::visit([this](const auto& b) { return run_batch(b); }, batch));
+      if (auto error = validate(batch)) return *std::move(error);
+      return std::visit([this](const auto& b) { return run_batch(b); }, batch);
     } catch (const std::bad_alloc&) {
-      return Transaction(Error{Errc::out_of_memory, "out of memory"});
+      return Error{Errc::out_of_memory, "out of memory"};
     }
   }
 

@@ -44,45 +44,47 @@ HWY_INLINE Fields<Real> contact_fields(const simd::ContactResult<Number<Real>, M
           {if_hit(c.normal.y), if_hit(c.normal.z), if_hit(c.depth), flow}};
 }
 
-/// Contacts of exactly one vector of pairs; returns the number of hits.
+/// One vector of pairs between its two halves of work.
 template <class Real>
-HWY_INLINE std::size_t collide_vector(const SpherePairOf<Real>* pairs, ContactOf<Real>* contacts) {
+struct Halfway {
+  simd::Vec3<Number<Real>> p1;
+  simd::Separation<Number<Real>> separation;
+};
+
+template <class Real>
+HWY_INLINE Halfway<Real> begin_vector(const SpherePairOf<Real>* pairs) {
   Args<Real> s1;
   Args<Real> s2;
   load_pairs(pairs, s1, s2);
-  const auto c = simd::sphere_sphere<Number<Real>>(s1, s2);
+  return {s1.p, simd::separation(s1, s2)};
+}
+
+/// Writes the contacts; returns the number of hits.
+template <class Real>
+HWY_INLINE std::size_t finish_vector(const Halfway<Real>& h, ContactOf<Real>* contacts) {
+  const auto c = simd::contact(h.p1, h.separation);
   store_fields<Real>(contact_fields<Real>(c), contacts->pos);
   return hn::CountTrue(Tag<Real>(), c.hit.m);
 }
 
-/// Contacts of exactly two vectors of pairs; returns the number of hits.
+/// Contacts of `vectors` whole vectors of pairs; returns the number of hits. The first half of each
+/// is done before the second half of the one ahead of it: the chain from a load through square root
+/// and division to a store is longer than a processor looks ahead.
 template <class Real>
-HWY_INLINE std::size_t collide_two_vectors(const SpherePairOf<Real>* pairs,
-                                           ContactOf<Real>* contacts) {
-  using Two = simd::Twice<Number<Real>>;
-  const Tag<Real> d;
-  const std::size_t lanes = hn::Lanes(d);
-  Args<Real> a1, a2, b1, b2;
-  load_pairs(pairs, a1, a2);
-  load_pairs(pairs + lanes, b1, b2);
-  const auto both = [](const Args<Real>& a, const Args<Real>& b) HWY_ATTR {
-    return simd::SphereArg<Two>{{{a.p.x, b.p.x}, {a.p.y, b.p.y}, {a.p.z, b.p.z}}, {a.r, b.r}};
-  };
-  const auto c = simd::sphere_sphere<Two>(both(a1, b1), both(a2, b2));
-  using One = simd::ContactResult<Number<Real>, decltype(c.hit.lo)>;
-  const One low{{c.pos.x.lo, c.pos.y.lo, c.pos.z.lo},
-                {c.normal.x.lo, c.normal.y.lo, c.normal.z.lo},
-                c.depth.lo,
-                c.hit.lo,
-                c.grazing.lo};
-  const One high{{c.pos.x.hi, c.pos.y.hi, c.pos.z.hi},
-                 {c.normal.x.hi, c.normal.y.hi, c.normal.z.hi},
-                 c.depth.hi,
-                 c.hit.hi,
-                 c.grazing.hi};
-  store_fields<Real>(contact_fields<Real>(low), contacts->pos);
-  store_fields<Real>(contact_fields<Real>(high), contacts[lanes].pos);
-  return hn::CountTrue(d, low.hit.m) + hn::CountTrue(d, high.hit.m);
+HWY_INLINE std::size_t collide_vectors(const SpherePairOf<Real>* pairs, std::size_t vectors,
+                                       ContactOf<Real>* contacts) {
+  if (vectors == 0) return 0;
+  const std::size_t lanes = hn::Lanes(Tag<Real>());
+  std::size_t hits = 0;
+  Halfway<Real> current = begin_vector(pairs);
+  for (std::size_t i = 1; i < vectors; ++i) {
+    pairs += lanes;
+    const Halfway<Real> next = begin_vector(pairs);
+    hits += finish_vector(current, contacts);
+    contacts += lanes;
+    current = next;
+  }
+  return hits + finish_vector(current, contacts);
 }
 
 /// Fills the rest of a vector with pairs that do not touch.
@@ -93,14 +95,14 @@ HWY_INLINE void pad_with_misses(SpherePairOf<Real>* begin, const SpherePairOf<Re
 
 /// Contacts of fewer pairs than a vector holds.
 template <class Real>
-HWY_INLINE std::size_t collide_tail(const SpherePairOf<Real>* pairs, std::size_t count,
-                                    ContactOf<Real>* contacts) {
+HWY_INLINE std::size_t collide_short(const SpherePairOf<Real>* pairs, std::size_t count,
+                                     ContactOf<Real>* contacts) {
   SpherePairOf<Real> in[kMaxLanes];
   ContactOf<Real> out[kMaxLanes];
   const std::size_t lanes = hn::Lanes(Tag<Real>());
   std::memcpy(in, pairs, count * sizeof in[0]);
   pad_with_misses(in + count, in + lanes);
-  const std::size_t hits = collide_vector(in, out);
+  const std::size_t hits = collide_vectors(in, 1, out);
   std::memcpy(contacts, out, count * sizeof out[0]);
   return hits;
 }
@@ -109,17 +111,15 @@ template <class Real>
 HWY_INLINE std::size_t pairs_cached(const SpherePairOf<Real>* pairs, std::size_t count,
                                     ContactOf<Real>* contacts) {
   const std::size_t lanes = hn::Lanes(Tag<Real>());
-  std::size_t hits = 0;
-  std::size_t i = 0;
-  for (; i + 2 * lanes <= count; i += 2 * lanes) {
-    hits += collide_two_vectors(pairs + i, contacts + i);
-  }
-  if (i + lanes <= count) {
-    hits += collide_vector(pairs + i, contacts + i);
-    i += lanes;
-  }
-  if (i < count) hits += collide_tail(pairs + i, count - i, contacts + i);
-  return hits;
+  const std::size_t whole = count - count % lanes;
+  const std::size_t hits = collide_vectors(pairs, count / lanes, contacts);
+  if (whole == count) return hits;
+  if (whole == 0) return collide_short(pairs, count, contacts);
+  // The last vector overlaps the one before it, which writes the same contacts again.
+  collide_vectors(pairs + count - lanes, 1, contacts + count - lanes);
+  return hits +
+         static_cast<std::size_t>(std::count_if(contacts + whole, contacts + count,
+                                                [](const ContactOf<Real>& c) { return c.hit(); }));
 }
 
 /// Copies with stores that bypass the caches; `to` is 16-byte aligned, `from` vector-aligned.
@@ -134,15 +134,13 @@ HWY_INLINE void stream_copy(const Real* from, std::size_t count, Real* to) {
 template <class Real>
 std::size_t pairs_streamed(const SpherePairOf<Real>* pairs, std::size_t count,
                            ContactOf<Real>* contacts) {
-  constexpr std::size_t kBlock = 2 * kMaxLanes;
+  constexpr std::size_t kBlock = 8 * kMaxLanes;
   HWY_ALIGN ContactOf<Real> block[kBlock];
   const std::size_t lanes = hn::Lanes(Tag<Real>());
   std::size_t hits = 0;
   std::size_t i = 0;
   for (; i + kBlock <= count; i += kBlock) {
-    for (std::size_t k = 0; k < kBlock; k += 2 * lanes) {
-      hits += collide_two_vectors(pairs + i + k, block + k);
-    }
+    hits += collide_vectors(pairs + i, kBlock / lanes, block);
     stream_copy<Real>(block->pos, 8 * kBlock, contacts[i].pos);
   }
   hwy::FlushStream();
@@ -179,7 +177,7 @@ HWY_INLINE std::size_t collide_array_element(const SpherePairArraysOf<Real>& p, 
   const SpherePairOf<Real> pair{{p.x1[i], p.y1[i], p.z1[i], p.r1[i]},
                                 {p.x2[i], p.y2[i], p.z2[i], p.r2[i]}};
   ContactOf<Real> contact;
-  const std::size_t hits = collide_tail(&pair, 1, &contact);
+  const std::size_t hits = collide_short(&pair, 1, &contact);
   c.pos_x[i] = contact.pos[0];
   c.pos_y[i] = contact.pos[1];
   c.pos_z[i] = contact.pos[2];
@@ -230,9 +228,9 @@ HWY_INLINE std::uint64_t hit_lanes(const SpherePairOf<Real>* pairs) {
   Args<Real> s1;
   Args<Real> s2;
   load_pairs(pairs, s1, s2);
-  const auto miss = simd::length(s1.p - s2.p) > s1.r + s2.r;
+  const auto hit = simd::touches(simd::separation(s1, s2));
   std::uint8_t bytes[kMaxLanes / 8 + sizeof(std::uint64_t)] = {};
-  hn::StoreMaskBits(d, (!miss).m, bytes);
+  hn::StoreMaskBits(d, hit.m, bytes);
   std::uint64_t bits;
   std::memcpy(&bits, bytes, sizeof bits);
   return bits;

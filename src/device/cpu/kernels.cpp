@@ -122,38 +122,50 @@ HWY_INLINE std::size_t pairs_cached(const SpherePairOf<Real>* pairs, std::size_t
                                                 [](const ContactOf<Real>& c) { return c.hit(); }));
 }
 
-/// Copies with stores that bypass the caches; `to` is 16-byte aligned, `from` vector-aligned.
-template <class Real>
-HWY_INLINE void stream_copy(const Real* from, std::size_t count, Real* to) {
-  const hn::CappedTag<Real, 16 / sizeof(Real)> d;
-  for (std::size_t i = 0; i < count; i += hn::Lanes(d)) {
-    hn::Stream(hn::Load(d, from + i), d, to + i);
+/// Writes `bytes`, a multiple of the line, to `to`, which is line-aligned, around the caches.
+HWY_INLINE void stream_lines(const unsigned char* from, std::size_t bytes, unsigned char* to) {
+  const hn::ScalableTag<std::uint8_t> d;
+  for (std::size_t i = 0; i < bytes; i += hn::Lanes(d)) {
+    hn::Stream(hn::LoadU(d, from + i), d, to + i);
   }
 }
 
+/// Blocks of contacts are made in a buffer and sent on in whole cache lines. Where the output does
+/// not start on a line, the buffer holds the skew: the bytes that share a line with the next block.
+///
+///   buffer  [ ... skew bytes | block of contacts ................. ]
+///                ^ sent from here, as many bytes as the block has; the rest is the next skew
 template <class Real>
 std::size_t pairs_streamed(const SpherePairOf<Real>* pairs, std::size_t count,
                            ContactOf<Real>* contacts) {
+  constexpr std::size_t kLine = 64;
   constexpr std::size_t kBlock = 8 * kMaxLanes;
-  HWY_ALIGN ContactOf<Real> block[kBlock];
-  const std::size_t lanes = hn::Lanes(Tag<Real>());
-  std::size_t hits = 0;
-  std::size_t i = 0;
-  for (; i + kBlock <= count; i += kBlock) {
-    hits += collide_vectors(pairs + i, kBlock / lanes, block);
-    stream_copy<Real>(block->pos, 8 * kBlock, contacts[i].pos);
+  constexpr std::size_t kBlockBytes = kBlock * sizeof(ContactOf<Real>);
+  constexpr std::size_t kHead = kLine / sizeof(ContactOf<Real>);
+  if (count < kHead + kBlock) return pairs_cached(pairs, count, contacts);
+
+  std::size_t hits = pairs_cached(pairs, kHead, contacts);
+  std::size_t i = kHead;
+  auto* to = reinterpret_cast<unsigned char*>(contacts + i);
+  const std::size_t skew = reinterpret_cast<std::uintptr_t>(to) % kLine;
+  HWY_ALIGN unsigned char buffer[kLine + kBlockBytes];
+  auto* const block = reinterpret_cast<ContactOf<Real>*>(buffer + kLine);
+  unsigned char* const begin = buffer + kLine - skew;
+  std::memcpy(begin, to - skew, skew);
+  for (; i + kBlock <= count; i += kBlock, to += kBlockBytes) {
+    hits += collide_vectors(pairs + i, kBlock / hn::Lanes(Tag<Real>()), block);
+    stream_lines(begin, kBlockBytes, to - skew);
+    std::memcpy(begin, begin + kBlockBytes, skew);
   }
   hwy::FlushStream();
+  std::memcpy(to - skew, begin, skew);
   return hits + pairs_cached(pairs + i, count - i, contacts + i);
 }
 
 template <class Real>
 std::size_t collide_pairs(const SpherePairOf<Real>* pairs, std::size_t count,
                           ContactOf<Real>* contacts, bool stream) {
-  if (stream && reinterpret_cast<std::uintptr_t>(contacts) % 16 == 0) {
-    return pairs_streamed(pairs, count, contacts);
-  }
-  return pairs_cached(pairs, count, contacts);
+  return stream ? pairs_streamed(pairs, count, contacts) : pairs_cached(pairs, count, contacts);
 }
 
 template <class Real>

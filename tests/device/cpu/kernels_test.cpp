@@ -87,6 +87,27 @@ TYPED_TEST(Kernels, EveryLengthAndOffsetGivesTheSame) {
   }
 }
 
+// Contacts that bypass the caches, to any address that holds numbers of this size.
+TYPED_TEST(Kernels, StreamsToEveryAlignment) {
+  constexpr std::size_t kCount = 700;
+  const auto pairs = test::random_pairs<TypeParam>(kSeed + 3, kCount);
+  for (const std::string& name : cpu::instruction_set_names()) {
+    for (std::size_t offset = 0; offset < 64; offset += sizeof(TypeParam)) {
+      std::vector<unsigned char> memory((kCount + 4) * sizeof(ContactOf<TypeParam>), 0xAA);
+      const std::size_t first = 64 + offset - reinterpret_cast<std::uintptr_t>(memory.data()) % 64;
+      auto* contacts = reinterpret_cast<ContactOf<TypeParam>*>(memory.data() + first);
+      cpu::find_kernels(name)->of<TypeParam>().pairs(pairs.data(), kCount, contacts, true);
+      for (std::size_t i = 0; i < kCount; ++i) {
+        ASSERT_TRUE(test::same_contact(contacts[i], test::algorithm_1(pairs[i])))
+            << name << " offset " << offset << " pair " << i;
+      }
+      const std::size_t end = first + kCount * sizeof(ContactOf<TypeParam>);
+      for (std::size_t i = 0; i < first; ++i) ASSERT_EQ(memory[i], 0xAA) << i;
+      for (std::size_t i = end; i < memory.size(); ++i) ASSERT_EQ(memory[i], 0xAA) << i;
+    }
+  }
+}
+
 TYPED_TEST(Kernels, ArraysEqualRecords) {
   constexpr std::size_t kCount = 1003;  // not a multiple of any vector
   const auto pairs = test::random_pairs<TypeParam>(kSeed + 2, kCount);

@@ -1,0 +1,248 @@
+// The indexed format: lines of 16 index pairs in, beats of one or two pairs of spheres out, those
+// that the cull lanes could not rule out, in pair order.
+//
+// Lanes pairs a cycle are looked up in the sphere table and decided by scpu_cull (the exact miss
+// test without a square root). What survives, by index, is compacted to two pairs a cycle, looked
+// up again and handed to the SCPUs, which decide all over: the cull may err only towards keeping.
+// A line takes ceil(16 / Lanes) cycles. Credits reserve the place of every beat that enters.
+//
+//   line -> slice -> table (2) -> scpu_cull -> decisions -+
+//             +----> indices, numbers (queue) ------------+-> compact -> table (2) -> pairs
+//
+// `index_error_o` (sticky until `start_i`): a pair named a sphere at or beyond `sphere_count_i`.
+// Lanes is 1 to 16. `idle_o`: nothing inside.
+module index_lanes #(
+  parameter int unsigned Lanes   = 10,
+  parameter int unsigned Spheres = 16384,
+  parameter int unsigned Depth   = 128
+) (
+  input  logic         clk_i,
+  input  logic         rst_ni,
+  input  logic         start_i,
+  input  logic [31:0]  sphere_count_i,
+  input  logic         table_clear_i,   // the next table line is row 0
+  input  logic         table_valid_i,
+  input  logic [511:0] table_data_i,
+
+  input  logic         valid_i,
+  output logic         ready_o,
+  input  logic [511:0] line_i,
+  input  logic [30:0]  number_i,        // of the first pair in the line
+  input  logic [4:0]   count_i,         // pairs in the line, 1 to 16
+
+  output logic         valid_o,
+  input  logic         ready_i,
+  output logic [1:0]   mask_o,
+  output logic [511:0] pairs_o,
+  output logic [61:0]  numbers_o,
+
+  output logic         index_error_o,
+  output logic         idle_o
+);
+  localparam int unsigned PER_LINE = harpoon_contract_pkg::INDEX_PAIRS_PER_LINE;
+  localparam int unsigned W        = $clog2(Spheres);
+  localparam int unsigned PORTS    = 2*Lanes + 4;
+  localparam int unsigned IDX      = 32*Lanes;
+
+  // ---- table, filled row by row ----
+  logic [W-3:0]         row_q;
+  logic [PORTS-1:0]     port_enable;
+  logic [PORTS*W-1:0]   port_index;
+  logic [PORTS*128-1:0] port_sphere;
+
+  always_ff @(posedge clk_i) begin
+    if (!rst_ni || table_clear_i) row_q <= '0;
+    else if (table_valid_i) row_q <= row_q + (W-2)'(1);
+  end
+  sphere_table #(.Spheres(Spheres), .Ports(PORTS)) u_table (
+    .clk_i,
+    .write_i      (table_valid_i),
+    .write_row_i  (row_q),
+    .write_data_i (table_data_i),
+    .enable_i     (port_enable),
+    .index_i      (port_index),
+    .sphere_o     (port_sphere)
+  );
+
+  // ---- slice: Lanes pairs of the line a cycle ----
+  logic [3:0]       place_q;      // first pair of the slice
+  logic             credit, issue, last_slice, slice_valid_q, all_home;
+  logic [4:0]       left;
+  logic [IDX-1:0]   slice, slice_q;
+  logic [Lanes-1:0] present, present_q;
+  logic [511+IDX:0] padded;
+
+  assign left       = count_i - {1'b0, place_q};
+  assign last_slice = left <= 5'(Lanes);
+  assign issue      = valid_i & credit;
+  assign ready_o    = credit & last_slice;
+  assign padded     = {{IDX{1'b0}}, line_i};
+  assign slice      = padded[{1'b0, place_q, 5'd0} +: IDX];
+  for (genvar g = 0; g < Lanes; g++) begin : gen_present
+    assign present[g] = 5'(g) < left;
+  end
+
+  always_ff @(posedge clk_i) begin
+    if (!rst_ni) begin
+      place_q       <= '0;
+      slice_valid_q <= 1'b0;
+    end else begin
+      slice_valid_q <= issue;
+      if (issue) place_q <= last_slice ? '0 : place_q + 4'(Lanes % PER_LINE);
+    end
+    if (issue) begin
+      slice_q   <= slice;
+      present_q <= present;
+    end
+  end
+
+  // ---- range check ----
+  logic [Lanes-1:0] outside;
+  for (genvar g = 0; g < Lanes; g++) begin : gen_range
+    assign outside[g] = present_q[g] & ((32'(slice_q[32*g +: 16]) >= sphere_count_i)
+                                      | (32'(slice_q[32*g+16 +: 16]) >= sphere_count_i));
+  end
+  always_ff @(posedge clk_i) begin
+    if (!rst_ni || start_i) index_error_o <= 1'b0;
+    else if (slice_valid_q & (|outside)) index_error_o <= 1'b1;
+  end
+
+  // ---- lanes: look up, decide ----
+  logic [1:0]       fetch_q;
+  logic [Lanes-1:0] decided, miss;
+  logic             lookup;
+  assign lookup = slice_valid_q | fetch_q[0];
+  always_ff @(posedge clk_i) begin
+    if (!rst_ni) fetch_q <= '0;
+    else         fetch_q <= {fetch_q[0], slice_valid_q};
+  end
+  localparam int unsigned RUN = $clog2(scpu_pkg::CullLatency + 3);
+  logic           running, clk;
+  logic [RUN-1:0] run_q;
+  assign running = (run_q != '0) | fetch_q[1] | ~rst_ni;
+  always_ff @(posedge clk_i) begin
+    if (!rst_ni) run_q <= '0;
+    else if (fetch_q[1]) run_q <= RUN'(scpu_pkg::CullLatency + 2);
+    else if (run_q != '0) run_q <= run_q - RUN'(1);
+  end
+  clock_gate u_gate (.clk_i, .enable_i(running), .clk_o(clk));
+  for (genvar g = 0; g < Lanes; g++) begin : gen_lane
+    assign port_enable[2*g +: 2]    = {2{lookup}};
+    assign port_index[2*g*W +: W]     = slice_q[32*g +: W];
+    assign port_index[(2*g+1)*W +: W] = slice_q[32*g+16 +: W];
+    scpu_cull u_cull (
+      .clk_i   (clk),
+      .rst_ni,
+      .valid_i (fetch_q[1]),
+      .pair_i  (port_sphere[256*g +: 256]),
+      .valid_o (decided[g]),
+      .miss_o  (miss[g])
+    );
+  end
+
+  // ---- decisions meet their indices ----
+  logic             head_valid, head_queued, head_done, decision_ready, queue_ready;
+  logic             decision_empty, queue_empty;
+  logic [Lanes-1:0] head_miss, head_present;
+  logic [IDX-1:0]   head_slice;
+  logic [30:0]      head_number;
+  fifo #(.Width(Lanes), .Depth(Depth)) u_decisions (
+    .clk_i, .rst_ni,
+    .valid_i (decided[0]),
+    .ready_o (decision_ready),
+    .data_i  (miss),
+    .valid_o (head_valid),
+    .ready_i (head_done),
+    .data_o  (head_miss),
+    .empty_o (decision_empty)
+  );
+  fifo #(.Width(31 + Lanes + IDX), .Depth(Depth)) u_slices (
+    .clk_i, .rst_ni,
+    .valid_i (issue),
+    .ready_o (queue_ready),
+    .data_i  ({number_i + 31'(place_q), present, slice}),
+    .valid_o (head_queued),
+    .ready_i (head_done),
+    .data_o  ({head_number, head_present, head_slice}),
+    .empty_o (queue_empty)
+  );
+  credits #(.Count(Depth)) u_credits (
+    .clk_i, .rst_ni,
+    .take_i      (issue),
+    .give_i      (head_done),
+    .available_o (credit),
+    .all_home_o  (all_home)
+  );
+
+  // ---- compact: the first two survivors of the head, then the rest ----
+  logic [Lanes-1:0] sent_q, survivors, rest, first_hot, second_hot;
+  logic [1:0]       found;
+  logic [31:0]      first_idx, second_idx;
+  logic [30:0]      first_number, second_number;
+  logic             look_ready, compact;
+
+  assign survivors  = head_present & ~head_miss & ~sent_q;
+  assign first_hot  = survivors & (~survivors + Lanes'(1));
+  assign rest       = survivors & ~first_hot;
+  assign second_hot = rest & (~rest + Lanes'(1));
+  assign found      = {|rest, |survivors};
+  assign head_done  = head_valid & ((rest & ~second_hot) == '0) & (look_ready | ~found[0]);
+  assign compact    = head_valid & found[0] & look_ready;
+  always_comb begin
+    first_idx     = '0;
+    second_idx    = '0;
+    first_number  = head_number;
+    second_number = head_number;
+    for (int unsigned i = 0; i < Lanes; i++) begin
+      if (first_hot[i]) begin
+        first_idx    = head_slice[32*i +: 32];
+        first_number = head_number + 31'(i);
+      end
+      if (second_hot[i]) begin
+        second_idx    = head_slice[32*i +: 32];
+        second_number = head_number + 31'(i);
+      end
+    end
+  end
+  always_ff @(posedge clk_i) begin
+    if (!rst_ni) sent_q <= '0;
+    else if (head_done) sent_q <= '0;
+    else if (compact) sent_q <= sent_q | first_hot | second_hot;
+  end
+
+  // ---- look up again: two stages that move together ----
+  logic [2:0]  look_valid_q;
+  logic [1:0]  look_mask_q   [0:2];
+  logic [61:0] look_number_q [0:2];
+  logic [4*W-1:0] look_idx_q;
+  assign look_ready = ~look_valid_q[2] | ready_i;
+  always_ff @(posedge clk_i) begin
+    if (!rst_ni) look_valid_q <= '0;
+    else if (look_ready) look_valid_q <= {look_valid_q[1:0], compact};
+    if (look_ready) begin
+      look_mask_q[0]   <= found;
+      look_mask_q[1]   <= look_mask_q[0];
+      look_mask_q[2]   <= look_mask_q[1];
+      look_number_q[0] <= {second_number, first_number};
+      look_number_q[1] <= look_number_q[0];
+      look_number_q[2] <= look_number_q[1];
+      look_idx_q       <= {second_idx[16 +: W], second_idx[0 +: W],
+                           first_idx[16 +: W], first_idx[0 +: W]};
+    end
+  end
+  for (genvar g = 0; g < 4; g++) begin : gen_again
+    assign port_enable[2*Lanes+g] = look_ready & (look_valid_q != '0);
+    assign port_index[(2*Lanes+g)*W +: W] = look_idx_q[W*g +: W];
+  end
+
+  assign valid_o   = look_valid_q[2];
+  assign mask_o    = look_mask_q[2];
+  assign numbers_o = look_number_q[2];
+  assign pairs_o   = port_sphere[256*Lanes +: 512];
+  assign idle_o    = all_home & (look_valid_q == '0);
+
+  // the credits make these constant; they are outputs of general cells
+  logic unused;
+  assign unused = head_queued ^ decision_ready ^ queue_ready ^ decision_empty ^ queue_empty
+                ^ (^decided);
+endmodule

@@ -1,0 +1,167 @@
+// N sphere collision processing units behind one ready/valid port of two pairs a beat.
+//
+// The SCPUs are free-running pipelines of one pair a cycle and equal latency, so results return in
+// pair order without any sorting; a credit for a place in the result queue is taken before a beat
+// enters, so that nothing ever stalls inside. SCPUs work two at a time (slot 0 and slot 1); the
+// work moves on to the next two after SplitBeats beats (after every beat with `spread_i`), so N_col
+// pairs are split over all N. With NumScpu = 1 a beat of two takes two cycles. The clock of an SCPU
+// that holds no pair is gated.
+//
+// `mask_i` says which of the two pairs are there (01 or 11); the tags travel along. Latency: that
+// of the SCPU plus 5. Legal: NumScpu = 1 or even, Depth a power of two above that latency.
+module scpu_array #(
+  parameter int unsigned NumScpu    = 10,
+  parameter int unsigned TagWidth   = 31,
+  parameter int unsigned Depth      = 256,
+  parameter int unsigned SplitBeats = 64
+) (
+  input  logic                  clk_i,
+  input  logic                  rst_ni,
+  input  logic                  spread_i,
+  input  logic                  valid_i,
+  output logic                  ready_o,
+  input  logic [1:0]            mask_i,
+  input  logic [511:0]          pairs_i,
+  input  logic [2*TagWidth-1:0] tags_i,
+  output logic                  valid_o,
+  input  logic                  ready_i,
+  output logic [1:0]            mask_o,
+  output logic [511:0]          contacts_o,
+  output logic [2*TagWidth-1:0] tags_o,
+  output logic                  idle_o
+);
+  localparam int unsigned SLOTS   = (NumScpu == 1) ? 1 : 2;
+  localparam int unsigned COLUMNS = NumScpu / SLOTS;
+  localparam int unsigned COL     = (COLUMNS > 1) ? $clog2(COLUMNS) : 1;
+  localparam int unsigned BEAT    = $clog2(SplitBeats);
+  localparam int unsigned RUN     = $clog2(scpu_pkg::Latency + 3);
+
+  if (NumScpu != 1 && NumScpu % 2 != 0) begin : gen_illegal
+    $error("NumScpu must be 1 or even");
+  end
+
+  // ---- one beat in, for NumScpu = 1 in two halves ----
+  logic                  issue, credit, last_half;
+  logic [1:0]            issue_mask;
+  logic [511:0]          issue_pairs;
+  logic [2*TagWidth-1:0] issue_tags;
+
+  assign issue   = valid_i & credit;
+  assign ready_o = credit & last_half;
+  if (SLOTS == 1) begin : gen_halves
+    logic half_q;
+    always_ff @(posedge clk_i) begin
+      if (!rst_ni) half_q <= 1'b0;
+      else if (issue) half_q <= ~last_half;
+    end
+    assign last_half   = half_q | ~mask_i[1];
+    assign issue_mask  = 2'b01;
+    assign issue_pairs = half_q ? {256'd0, pairs_i[511:256]} : {256'd0, pairs_i[255:0]};
+    assign issue_tags  = half_q ? {{TagWidth{1'b0}}, tags_i[2*TagWidth-1:TagWidth]} : tags_i;
+  end else begin : gen_whole
+    assign last_half   = 1'b1;
+    assign issue_mask  = mask_i;
+    assign issue_pairs = pairs_i;
+    assign issue_tags  = tags_i;
+  end
+
+  // ---- which SCPUs ----
+  logic [COL-1:0]  column_q;
+  logic [BEAT-1:0] beat_q;
+  always_ff @(posedge clk_i) begin
+    if (!rst_ni) begin
+      column_q <= '0;
+      beat_q   <= '0;
+    end else if (issue) begin
+      beat_q <= beat_q + BEAT'(1);
+      if (spread_i | (&beat_q)) column_q <= (column_q == COL'(COLUMNS-1)) ? '0 : column_q + COL'(1);
+    end
+  end
+
+  // ---- the SCPUs ----
+  logic [NumScpu-1:0]     done;
+  logic [256*NumScpu-1:0] contact;
+  for (genvar g = 0; g < NumScpu; g++) begin : gen_scpu
+    localparam int unsigned COLUMN = g / SLOTS;
+    localparam int unsigned SLOT   = g % SLOTS;
+    logic           mine, start_q, clk, running;
+    logic [255:0]   pair_q;
+    logic [RUN-1:0] run_q;
+
+    assign mine    = issue & issue_mask[SLOT] & (column_q == COL'(COLUMN));
+    assign running = mine | (run_q != '0) | ~rst_ni;
+    always_ff @(posedge clk_i) begin
+      if (!rst_ni) begin
+        start_q <= 1'b0;
+        run_q   <= '0;
+      end else begin
+        start_q <= mine;
+        if (mine) run_q <= RUN'(scpu_pkg::Latency + 2);
+        else if (run_q != '0) run_q <= run_q - RUN'(1);
+      end
+      if (mine) pair_q <= issue_pairs[256*SLOT +: 256];
+    end
+    clock_gate u_gate (.clk_i, .enable_i(running), .clk_o(clk));
+    scpu u_scpu (
+      .clk_i     (clk),
+      .rst_ni,
+      .valid_i   (start_q),
+      .pair_i    (pair_q),
+      .valid_o   (done[g]),
+      .contact_o (contact[256*g +: 256])
+    );
+  end
+
+  // ---- collect: in each slot at most one SCPU finishes in a cycle ----
+  logic [511:0] merged, merged_q;
+  logic         merged_valid_q;
+  always_comb begin
+    merged = '0;
+    for (int unsigned i = 0; i < NumScpu; i++) begin
+      if (done[i]) begin
+        merged[256*(i%SLOTS) +: 256] = contact[256*i +: 256];
+      end
+    end
+  end
+  always_ff @(posedge clk_i) begin
+    if (!rst_ni) merged_valid_q <= 1'b0;
+    else         merged_valid_q <= |done;
+    if (|done) merged_q <= merged;
+  end
+
+  // ---- queues, reserved by credits ----
+  logic take_result, tag_valid, tag_ready, result_ready, tag_empty, result_empty, all_home;
+  fifo #(.Width(2 + 2*TagWidth), .Depth(Depth)) u_tags (
+    .clk_i, .rst_ni,
+    .valid_i (issue),
+    .ready_o (tag_ready),
+    .data_i  ({issue_mask, issue_tags}),
+    .valid_o (tag_valid),
+    .ready_i (take_result),
+    .data_o  ({mask_o, tags_o}),
+    .empty_o (tag_empty)
+  );
+  fifo #(.Width(512), .Depth(Depth)) u_results (
+    .clk_i, .rst_ni,
+    .valid_i (merged_valid_q),
+    .ready_o (result_ready),
+    .data_i  (merged_q),
+    .valid_o (valid_o),
+    .ready_i (take_result),
+    .data_o  (contacts_o),
+    .empty_o (result_empty)
+  );
+  assign take_result = valid_o & ready_i;
+  credits #(.Count(Depth)) u_credits (
+    .clk_i, .rst_ni,
+    .take_i      (issue),
+    .give_i      (take_result),
+    .available_o (credit),
+    .all_home_o  (all_home)
+  );
+  assign idle_o = all_home;
+
+  // the credits make these constant; they are outputs of general cells
+  logic unused;
+  assign unused = tag_valid ^ tag_ready ^ result_ready ^ tag_empty ^ result_empty;
+endmodule

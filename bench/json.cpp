@@ -1,0 +1,29 @@
+#include "bench/json.hpp"
+
+namespace harpoon::bench {
+
+Json machine_json(const Machine& machine) {
+  return {{"cpu", machine.cpu},
+          {"cores", machine.cores},
+          {"memory_gb", machine.memory_gb},
+          {"os", machine.os},
+          {"kernel", machine.kernel},
+          {"compiler", machine.compiler},
+          {"instruction_set", machine.instruction_set},
+          {"ode", machine.ode},
+          {"harpoon", machine.harpoon}};
+}
+
+Json row_json(const ResultRow& row) {
+  const Measurement& m = row.measured;
+  const auto pairs = static_cast<double>(m.count);
+  return {{"device", row.label.device},          {"precision", row.label.precision},
+          {"threads", row.label.threads},        {"count", m.count},
+          {"type", to_string(row.type)},         {"format", row.label.format},
+          {"ns_per_pair", row.ns_per_pair()},    {"ns_per_pair_min", m.ns.min / pairs},
+          {"ns_per_pair_low", m.ns.low / pairs}, {"ns_per_pair_high", m.ns.high / pairs},
+          {"modelled", row.label.modelled},      {"speedup_vs_ode", row.speedup_vs_ode},
+          {"gb_per_s", row.gb_per_s()},          {"runs", m.runs}};
+}
+
+}  // namespace harpoon::bench

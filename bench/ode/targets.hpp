@@ -1,0 +1,35 @@
+#pragma once
+
+// The figures that the cpu device must reach, as data, and their measurement. Each is a ratio of
+// two medians of one interleaved run, so that it means the same on any machine.
+
+#include <string>
+#include <vector>
+
+#include "bench/ode/pairs_bench.hpp"
+
+namespace harpoon::bench {
+
+struct Target {
+  std::string what;
+  double measured = 0;
+  double required = 0;
+  std::string command;  ///< that measures the figure by itself
+
+  [[nodiscard]] bool passed() const { return measured >= required; }
+};
+
+struct TargetPlan {
+  NamedDevice one_thread;
+  NamedDevice two_threads;
+  NamedDevice all_threads;
+  unsigned rounds = 15;
+};
+
+/// Measures all targets, in about half a minute. The two-thread target is left out on a machine
+/// with one core. When interrupted, returns what there is.
+/// Errors: as `run_pairs`.
+Result<std::vector<Target>> check_targets(const TargetPlan& plan, const ShareDone& share_done = {},
+                                          const Interrupted& interrupted = {});
+
+}  // namespace harpoon::bench

@@ -1,0 +1,38 @@
+#pragma once
+
+// A subcommand of `harpoon` is one file command_NAME.cpp that defines one of these functions: it
+// declares its options, and on parsing leaves what is to be run in the context. main runs it.
+
+#include <functional>
+#include <string>
+
+#include "apps/terminal.hpp"
+
+namespace CLI {
+class App;
+}
+
+namespace harpoon::app {
+
+struct Context {
+  Terminal terminal;
+  std::string command_line;   ///< as typed, for the results
+  std::function<void()> run;  ///< set by the subcommand that was given; throws CommandError
+};
+
+void add_demo(CLI::App& root, Context& context);
+void add_bench(CLI::App& root, Context& context);
+void add_bench_pairs(CLI::App& bench, Context& context);
+void add_diamond(CLI::App& root, Context& context);
+void add_devices(CLI::App& root, Context& context);
+void add_selftest(CLI::App& root, Context& context);
+void add_completion(CLI::App& root, Context& context);
+void add_manual(CLI::App& root, Context& context);
+
+/// Declares the whole command. Every option of every subcommand is in `root` afterwards.
+void add_all_commands(CLI::App& root, Context& context);
+
+/// Parses and runs; reports errors on standard error. The exit code.
+int run_command_line(int argc, const char* const* argv);
+
+}  // namespace harpoon::app

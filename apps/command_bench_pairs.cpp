@@ -1,0 +1,248 @@
+// `harpoon bench pairs`: ODE and every device on the same pairs, in one interleaved run.
+
+#include <fmt/format.h>
+
+#include <CLI/CLI.hpp>
+#include <algorithm>
+#include <cstdio>
+
+#include "apps/command.hpp"
+#include "apps/device_catalog.hpp"
+#include "apps/exit_code.hpp"
+#include "apps/figures.hpp"
+#include "apps/files.hpp"
+#include "apps/interrupt.hpp"
+#include "apps/options.hpp"
+#include "apps/progress.hpp"
+#include "apps/result_table.hpp"
+#include "bench/machine.hpp"
+#include "bench/ode/pairs_bench.hpp"
+#include "bench/ode/targets.hpp"
+#include "bench/results.hpp"
+
+namespace harpoon::app {
+namespace {
+
+struct PairsOptions {
+  std::string figure;
+  std::vector<std::size_t> counts = {10000};
+  std::string type = "real";
+  std::string format = "records";
+  std::string precision = "all";
+  std::vector<unsigned> threads = {1};
+  std::string device = "all";
+  unsigned rounds = 11;
+  std::size_t spheres = 100000;
+  std::uint64_t seed = 1;
+  unsigned h_max = 3;
+  double d_sph = 0;
+  bool copy = false;
+  bool check = false;
+  std::string json;
+  std::string csv;
+};
+
+bench::PairsPlan to_plan(const PairsOptions& options) {
+  bench::PairsPlan plan;
+  plan.type = *bench::parse_pair_type(options.type);
+  plan.format = *bench::parse_format(options.format);
+  plan.counts = options.counts;
+  std::sort(plan.counts.begin(), plan.counts.end());
+  plan.counts.erase(std::unique(plan.counts.begin(), plan.counts.end()), plan.counts.end());
+  if (!options.figure.empty()) {
+    plan.counts = options.figure == "6" ? figure6_counts() : figure7_counts();
+  }
+  plan.figure5 = true;
+  plan.f32 = options.precision != "f64";
+  plan.f64 = options.precision != "f32";
+  plan.rounds = options.rounds;
+  plan.indexed_spheres = options.spheres;
+  plan.seed = options.seed;
+  plan.diamond.h_max = options.h_max;
+  plan.diamond.d_sph = options.d_sph;
+  return plan;
+}
+
+// A batch that cannot fit would have the machine swap, or end the process.
+void require_memory(const bench::PairsPlan& plan, const PairsOptions& options) {
+  constexpr double kUsableShare = 0.8;
+  double bytes_per_pair = (plan.f32 ? 64 : 0) + (plan.f64 ? 128 : 0);
+  if (plan.format == bench::Format::indexed) {
+    bytes_per_pair += sizeof(IndexPair);
+  }
+  const double copy_bytes = options.copy ? 512e6 : 0;
+  const double needed_gb =
+      (static_cast<double>(plan.counts.back()) * bytes_per_pair + copy_bytes) * 1e-9;
+  const double memory_gb = bench::describe_machine().memory_gb;
+  if (needed_gb > kUsableShare * memory_gb) {
+    throw CommandError(ExitCode::environment,
+                       fmt::format("--count: {} pairs take {:.1f} GB, this machine has {:.1f} GB. "
+                                   "Use a smaller --count or one --precision.",
+                                   plan.counts.back(), needed_gb, memory_gb));
+  }
+}
+
+void require_outputs(const PairsOptions& options) {
+  if (!options.json.empty() && options.json != "-") {
+    require_writable_file(options.json, "--json");
+  }
+  if (!options.csv.empty()) {
+    require_writable_file(options.csv, "--csv");
+  }
+}
+
+void measure(const Context& context, const PairsOptions& options) {
+  bench::PairsPlan plan = to_plan(options);
+  require_memory(plan, options);
+  require_outputs(options);
+  plan.devices = open_devices(options.device, options.threads);
+  if (options.copy) {
+    plan.copy_threads = thread_counts(options.threads);
+  }
+  const auto outcome = [&] {
+    Progress progress(context.terminal);
+    progress.show(0, "recording pairs");
+    const auto share = [&](double done) { progress.show(done, "measuring"); };
+    return value_or_throw(bench::run_pairs(plan, share, is_interrupted));
+  }();
+  throw_if_interrupted();
+
+  bench::ResultSet results{bench::describe_machine(),
+                           bench::build_commit(),
+                           bench::timestamp(),
+                           context.command_line,
+                           outcome.timer_overhead_ns,
+                           bench::to_rows(outcome.series, plan.type),
+                           bench::to_copy_bandwidths(outcome.copy_series),
+                           outcome.notes};
+  const bool json_on_stdout = options.json == "-";
+  fmt::print(json_on_stdout ? stderr : stdout, "{}", describe_results(context.terminal, results));
+  if (json_on_stdout) {
+    fmt::print("{}", bench::to_json(results));
+  } else if (!options.json.empty()) {
+    write_file(options.json, bench::to_json(results));
+    fmt::print("{}\n", options.json);
+  }
+  if (!options.csv.empty()) {
+    append_csv(options.csv, bench::csv_header(), bench::to_csv(results));
+    fmt::print(json_on_stdout ? stderr : stdout, "{}\n", options.csv);
+  }
+}
+
+bench::NamedDevice open_cpu(unsigned threads) {
+  return open_devices("cpu", {threads}).front();
+}
+
+void check(const Context& context, const PairsOptions& options) {
+  bench::TargetPlan plan{open_cpu(1), open_cpu(2), open_cpu(0), options.rounds};
+  const auto targets = [&] {
+    Progress progress(context.terminal);
+    const auto share = [&](double done) { progress.show(done, "measuring targets"); };
+    return value_or_throw(bench::check_targets(plan, share, is_interrupted));
+  }();
+  throw_if_interrupted();
+  std::vector<std::vector<Cell>> rows;
+  std::size_t missed = 0;
+  for (const bench::Target& target : targets) {
+    missed += target.passed() ? 0 : 1;
+    rows.push_back({target.what, fmt::format("{:.2f}", target.measured),
+                    fmt::format("{:.2f}", target.required),
+                    target.passed() ? Cell("pass", Colour::green) : Cell("MISS", Colour::red),
+                    target.command});
+  }
+  fmt::print(
+      "{}",
+      format_table(context.terminal,
+                   {{"target"}, {"measured", true}, {"required", true}, {"verdict"}, {"by itself"}},
+                   rows));
+  if (missed > 0) {
+    throw CommandError(ExitCode::failure,
+                       fmt::format("{} of {} targets were missed. Run again on an idle machine; if "
+                                   "they stay missed, the cpu device is slower than promised here.",
+                                   missed, targets.size()));
+  }
+}
+
+void add_selection(CLI::App& pairs, PairsOptions& options) {
+  add_choice(pairs, "--figure", options.figure, {"6", "7"},
+             "Sweep of the paper: 6 is 10 to 1000 step 10, 7 is 1000 to 90000 step 1000");
+  pairs.add_option("--count", options.counts, "Pairs in a batch; several separated by commas")
+      ->delimiter(',')
+      ->check(whole_number(1, kMaxBatchPairs))
+      ->type_name("N")
+      ->default_str("10000")
+      ->excludes("--figure");
+  add_choice(pairs, "--type", options.type, {"real", "fake", "grazing", "mixed"},
+             "Type of the recorded pairs")
+      ->capture_default_str();
+  add_choice(pairs, "--format", options.format, {"records", "arrays", "indexed"},
+             "How pairs lie in memory; indexed asks about random pairs of many spheres")
+      ->capture_default_str();
+  add_choice(pairs, "--precision", options.precision, {"f32", "f64", "all"}, "Precision")
+      ->capture_default_str();
+  pairs
+      .add_option("--threads", options.threads,
+                  "Threads of the cpu device; several separated by commas, 0 for all")
+      ->delimiter(',')
+      ->check(whole_number(0, 1024))
+      ->type_name("T")
+      ->default_str("1");
+  pairs.add_option("--device", options.device, "Device to compare with ODE")
+      ->type_name(device_choices())
+      ->capture_default_str();
+}
+
+void add_details(CLI::App& pairs, PairsOptions& options) {
+  pairs.add_option("--rounds", options.rounds, "Turns of each contestant at each count")
+      ->check(whole_number(1, 10000))
+      ->type_name("N")
+      ->capture_default_str();
+  pairs.add_option("--hmax", options.h_max, "Diamond to record from: shells around the centre")
+      ->check(whole_number(1, bench::kMaxDiamondHMax))
+      ->type_name("H")
+      ->capture_default_str();
+  pairs.add_option("--dsph", options.d_sph, "Diamond to record from: gap between spheres, metres")
+      ->type_name("D")
+      ->capture_default_str();
+  pairs.add_option("--spheres", options.spheres, "Distinct spheres of --format indexed")
+      ->check(whole_number(2, 100000000))
+      ->type_name("N")
+      ->capture_default_str();
+  pairs.add_option("--seed", options.seed, "Seed of the pairs of --format indexed")
+      ->type_name("N")
+      ->capture_default_str();
+  pairs.add_flag("--copy", options.copy, "Also measure the copy bandwidth of as many threads");
+  pairs.add_flag("--check", options.check,
+                 "Measure the promised figures of the cpu device instead; exit code 1 on a miss");
+  pairs.add_option("--json", options.json, "Write the results as JSON; - for standard output")
+      ->type_name("FILE");
+  pairs.add_option("--csv", options.csv, "Append the results to a CSV file")->type_name("FILE");
+}
+
+}  // namespace
+
+void add_bench_pairs(CLI::App& bench, Context& context) {
+  CLI::App* pairs =
+      bench.add_subcommand("pairs", "ODE and every device on the same pairs, interleaved");
+  auto options = std::make_shared<PairsOptions>();
+  add_selection(*pairs, *options);
+  add_details(*pairs, *options);
+  pairs->footer(
+      "ODE is timed on the same recorded pairs as one batch (device ode) and as in Figure 5 of "
+      "the\n"
+      "paper (device ode (Figure 5)). Figures are medians over rounds; speed-ups relate to device "
+      "ode.\n\n"
+      "Examples:\n"
+      "  harpoon bench pairs --count 10,10000,90000\n"
+      "  harpoon bench pairs --figure 7 --json figure7.json\n"
+      "  harpoon bench pairs --format indexed --count 1000000\n"
+      "  harpoon bench pairs --count 8000000 --precision f32 --threads 1,2 --copy\n"
+      "  harpoon bench pairs --check");
+  pairs->callback([&context, options] {
+    context.run = [&context, options] {
+      options->check ? check(context, *options) : measure(context, *options);
+    };
+  });
+}
+
+}  // namespace harpoon::app

@@ -1,0 +1,37 @@
+#pragma once
+
+// The devices that the command can open: those of the library, and those that only a program may
+// put together (a device and the simulation behind it). A new one is one entry in `device_catalog`.
+
+#include <functional>
+#include <string>
+#include <vector>
+
+#include "bench/device_contestant.hpp"
+#include "harpoon/device.hpp"
+
+namespace harpoon::app {
+
+struct CatalogEntry {
+  DeviceInfo info;
+  /// `threads` is for devices that have them (cpu): 0 means all.
+  std::function<Result<std::unique_ptr<Device>>(unsigned threads)> open;
+  bool has_threads = false;
+};
+
+/// Every device, available or not, cpu first.
+std::vector<CatalogEntry> device_catalog();
+
+/// Opens `selection`, "all" or a name, with each of `threads` where the device has threads and once
+/// where it has none. "all" skips what is not available.
+/// Throws CommandError: usage for an unknown name, environment for one that is not available.
+std::vector<bench::NamedDevice> open_devices(const std::string& selection,
+                                             const std::vector<unsigned>& threads);
+
+/// `threads` with 0 replaced by the number of hardware threads, ascending, without repetitions.
+std::vector<unsigned> thread_counts(std::vector<unsigned> threads);
+
+/// "all" and the names in the catalogue, for help and completion.
+std::string device_choices();
+
+}  // namespace harpoon::app

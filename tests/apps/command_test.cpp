@@ -1,0 +1,219 @@
+// The command as a user meets it: exit codes, messages, files, terminals, interruption.
+
+#include <gtest/gtest.h>
+#include <signal.h>
+
+#include <regex>
+
+#include "apps/files.hpp"
+#include "apps/process.hpp"
+#include "apps/scratch_folder.hpp"
+#include "bench/json.hpp"
+#include "harpoon/version.hpp"
+
+namespace harpoon::app {
+namespace {
+
+using bench::Json;
+
+bool contains(const std::string& text, const std::string& part) {
+  return text.find(part) != std::string::npos;
+}
+
+std::size_t lines(const std::string& text) {
+  return static_cast<std::size_t>(std::count(text.begin(), text.end(), '\n'));
+}
+
+TEST(Command, PrintsItsVersionAndCommit) {
+  const Finished f = run_piped({"--version"});
+  EXPECT_EQ(f.exit_code, 0);
+  EXPECT_TRUE(contains(f.out, "harpoon " + std::string(version()))) << f.out;
+  EXPECT_TRUE(contains(f.out, "commit"));
+  EXPECT_EQ(f.err, "");
+}
+
+TEST(Command, HelpIsEverywhereWithExamples) {
+  const std::vector<std::vector<std::string>> commands = {
+      {},          {"demo"},     {"bench"},      {"bench", "pairs"}, {"diamond"},
+      {"devices"}, {"selftest"}, {"completion"}, {"manual"}};
+  for (std::vector<std::string> command : commands) {
+    command.push_back("--help");
+    const Finished f = run_piped(command);
+    EXPECT_EQ(f.exit_code, 0) << command.front();
+    EXPECT_TRUE(contains(f.out, "Example")) << command.front();
+    EXPECT_EQ(f.err, "") << command.front();
+  }
+  EXPECT_TRUE(contains(run_piped({"--help"}).out, "Exit codes:"));
+}
+
+TEST(Command, WrongUsageIsExitCode2AndNamesWhatIsWrong) {
+  const std::vector<std::pair<std::vector<std::string>, std::string>> cases = {
+      {{}, "subcommand is required"},
+      {{"fly"}, "'fly' is no command"},
+      {{"demo", "--fast"}, "'--fast' is no command or option of harpoon demo"},
+      {{"bench", "pairs", "--type", "soft"}, "'soft' is not one of real, fake, grazing, mixed"},
+      {{"bench", "pairs", "--count", "0"}, "--count: '0' is not a whole number from 1"},
+      {{"bench", "pairs", "--device", "abacus"}, "there is no device abacus"},
+      {{"bench", "pairs", "--figure", "6", "--count", "10"}, "excludes"},
+      {{"diamond", "--hmax", "46"}, "--hmax"},
+      {{"diamond", "--dsph", "-1"}, "dsph is -1"},
+      {{"completion", "tcsh"}, "'tcsh' is not one of bash, zsh, fish"}};
+  for (const auto& [arguments, message] : cases) {
+    const Finished f = run_piped(arguments);
+    EXPECT_EQ(f.exit_code, 2) << message;
+    EXPECT_TRUE(contains(f.err, "harpoon: error: ")) << f.err;
+    EXPECT_TRUE(contains(f.err, message)) << f.err;
+    EXPECT_EQ(f.out, "") << message;
+  }
+}
+
+TEST(Command, WhatCannotBeWrittenIsExitCode3BeforeAnyWork) {
+  const ScratchFolder folder;
+  write_file(folder / "file", "");
+  const std::string below = (folder / "file/below").string();
+  const std::vector<std::pair<std::vector<std::string>, std::string>> cases = {
+      {{"demo", "--out", below}, "--out"},
+      {{"diamond", "--out", below}, "--out"},
+      {{"bench", "pairs", "--json", below}, "--json"},
+      {{"bench", "pairs", "--csv", folder.string()}, "--csv"}};
+  for (const auto& [arguments, option] : cases) {
+    const Finished f = run_piped(arguments);
+    EXPECT_EQ(f.exit_code, 3) << option;
+    EXPECT_TRUE(contains(f.err, option)) << f.err;
+  }
+}
+
+TEST(Command, ABatchBeyondTheMemoryIsExitCode3) {
+  const Finished f = run_piped({"bench", "pairs", "--count", "2147483648"});
+  // A machine with more than half a terabyte would start to work; none of ours has.
+  EXPECT_EQ(f.exit_code, 3);
+  EXPECT_TRUE(contains(f.err, "--count")) << f.err;
+}
+
+TEST(Devices, ListsCpuAndItsInstructionSets) {
+  const Finished f = run_piped({"devices"});
+  EXPECT_EQ(f.exit_code, 0);
+  EXPECT_TRUE(std::regex_search(f.out, std::regex("\ncpu +yes +measured"))) << f.out;
+  EXPECT_TRUE(contains(f.out, "Instruction sets of cpu here: ")) << f.out;
+}
+
+TEST(SelftestCommand, PassesHere) {
+  const Finished f = run_piped({"selftest", "--pairs", "4000", "--device", "cpu", "--seed", "9"});
+  EXPECT_EQ(f.exit_code, 0) << f.out << f.err;
+  EXPECT_TRUE(contains(f.out, "checks passed"));
+  EXPECT_TRUE(contains(f.out, "(seed 9)"));
+  EXPECT_EQ(f.err, "");
+}
+
+TEST(Diamond, WritesPositionsAndContacts) {
+  const ScratchFolder folder;
+  const Finished f = run_piped({"diamond", "--hmax", "2", "--dsph", "0.05", "--steps", "40",
+                                "--every", "10", "--out", folder.string()});
+  ASSERT_EQ(f.exit_code, 0) << f.err;
+  EXPECT_TRUE(contains(f.out, "25 spheres, 40 steps"));
+  const std::string positions = read_file(folder / "positions.csv");
+  EXPECT_EQ(lines(positions), 1 + 4 * 25U);
+  EXPECT_EQ(positions.substr(0, positions.find('\n')), "step,sphere,x,y,z");
+  EXPECT_TRUE(contains(positions, "\n30,24,"));
+  const std::string contacts = read_file(folder / "contacts.csv");
+  EXPECT_EQ(contacts.substr(0, contacts.find('\n')), "step,g1,g2,x,y,z,nx,ny,nz,depth,type");
+  EXPECT_GT(lines(contacts), 10U);
+  EXPECT_TRUE(contains(contacts, ",real\n"));
+}
+
+TEST(BenchPairs, WritesJsonAndAppendsCsv) {
+  const ScratchFolder folder;
+  const std::string json = (folder / "r.json").string();
+  const std::string csv = (folder / "r.csv").string();
+  for (int i = 0; i < 2; ++i) {
+    const Finished f = run_piped({"bench", "pairs", "--count", "10,50", "--rounds", "1", "--device",
+                                  "cpu", "--json", json, "--csv", csv});
+    ASSERT_EQ(f.exit_code, 0) << f.err;
+    EXPECT_TRUE(contains(f.out, json));
+    EXPECT_EQ(f.err, "");
+  }
+  const Json root = Json::parse(read_file(json));
+  ASSERT_EQ(root.at("results").size(), 8U);
+  EXPECT_EQ(root.at("results")[0].at("device"), "ode");
+  EXPECT_EQ(root.at("results")[0].at("speedup_vs_ode"), 1);
+  EXPECT_TRUE(contains(root.at("command").get<std::string>(), "--count 10,50"));
+  EXPECT_EQ(lines(read_file(csv)), 1 + 2 * 8U);
+}
+
+TEST(BenchPairs, JsonCanGoToStandardOutputAlone) {
+  const Finished f = run_piped({"bench", "pairs", "--count", "10", "--rounds", "1", "--type",
+                                "grazing", "--device", "cpu", "--json", "-"});
+  ASSERT_EQ(f.exit_code, 0) << f.err;
+  const Json root = Json::parse(f.out);
+  EXPECT_EQ(root.at("results")[0].at("type"), "grazing");
+  EXPECT_TRUE(contains(root.at("notes")[0], "were made"));
+}
+
+TEST(BenchPairs, DoesTheIndexedFormAndCopyBandwidth) {
+  const Finished indexed = run_piped({"bench", "pairs", "--format", "indexed", "--count", "500",
+                                      "--spheres", "100", "--rounds", "1", "--device", "cpu"});
+  ASSERT_EQ(indexed.exit_code, 0) << indexed.err;
+  EXPECT_TRUE(contains(indexed.out, "100 distinct spheres"));
+}
+
+class Demo : public testing::Test {
+ protected:
+  static constexpr const char* kFiles[] = {"report.html", "results.json", "results.csv",
+                                           "figure6.csv", "figure7.csv"};
+};
+
+TEST_F(Demo, WritesEverythingAndNoProgressInAPipe) {
+  const ScratchFolder folder;
+  const Finished f = run_piped({"demo", "--quick", "--out", (folder / "out").string()});
+  ASSERT_EQ(f.exit_code, 0) << f.err;
+  EXPECT_EQ(f.err, "");
+  EXPECT_FALSE(contains(f.out, "\x1b"));
+  EXPECT_FALSE(contains(f.out, "\r"));
+  EXPECT_TRUE(contains(f.out, "equal bit for bit"));
+  for (const char* name : kFiles) {
+    const std::string file = (folder / "out" / name).string();
+    EXPECT_TRUE(contains(f.out, file)) << name;
+    EXPECT_GT(read_file(file).size(), 100U) << name;
+  }
+  const std::string page = read_file(folder / "out" / "report.html");
+  const std::string slot = "id=\"harpoon-data\">";
+  const std::size_t begin = page.find(slot) + slot.size();
+  const Json data = Json::parse(page.substr(begin, page.find("</script>", begin) - begin));
+  EXPECT_EQ(data.at("schema"), 1);
+  EXPECT_EQ(data.at("figures").size(), 2U);
+}
+
+TEST_F(Demo, ShowsProgressOnATerminalAndHonoursNoColor) {
+  const ScratchFolder folder;
+  const std::vector<std::string> arguments = {"demo", "--quick", "--out", folder.string()};
+  const Finished colour = run_on_terminal(arguments, {"TERM=xterm", "NO_COLOR"});
+  EXPECT_EQ(colour.exit_code, 0) << colour.out;
+  EXPECT_TRUE(contains(colour.out, " %  "));
+  EXPECT_TRUE(contains(colour.out, "\x1b[1m"));
+  const Finished plain = run_on_terminal(arguments, {"TERM=xterm", "NO_COLOR=1"});
+  EXPECT_EQ(plain.exit_code, 0);
+  EXPECT_TRUE(contains(plain.out, " %  "));
+  EXPECT_FALSE(std::regex_search(plain.out, std::regex("\x1b\\[[0-9;]*m")));
+  const Finished dumb = run_on_terminal(arguments, {"TERM=dumb", "NO_COLOR"});
+  EXPECT_EQ(dumb.exit_code, 0);
+  EXPECT_FALSE(contains(dumb.out, "\x1b"));
+}
+
+TEST_F(Demo, AnInterruptEndsItCleanlyWithoutFiles) {
+  const ScratchFolder folder;
+  bool sent = false;
+  const Finished f = run_on_terminal({"demo", "--out", (folder / "out").string()}, {"TERM=xterm"},
+                                     [&](const std::string&, int pid) {
+                                       if (!sent) {
+                                         sent = true;
+                                         kill(pid, SIGINT);
+                                       }
+                                     });
+  EXPECT_TRUE(sent);
+  EXPECT_EQ(f.exit_code, 130) << f.out;
+  EXPECT_TRUE(contains(f.out, "Interrupted. No file was written."));
+  EXPECT_TRUE(std::filesystem::is_empty(folder / "out"));
+}
+
+}  // namespace
+}  // namespace harpoon::app

@@ -50,7 +50,7 @@ module fp32_sqrt (
   end
 
   // Stages 3 to 26: one bit each. Before step g the root has g + 1 bits and the remainder, at most
-  // twice the root, g + 2. The two radicand bits of a step enter as low = bits - 1, with a borrow on
+  // twice the root, g + 2. The two radicand bits of a step enter as low = bits - 1, the borrow on
   // top, decoded one stage ahead.
   logic [11:0] side_q [Steps];  // sign, NaN, infinity, zero, half the exponent
   logic [23:0] rad_q  [Steps];

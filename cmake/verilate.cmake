@@ -7,19 +7,19 @@
 # HARPOON_HAVE_VERILATOR tells whether the function can be used. Models are compiled by clang++ if
 # there is one (a fifth faster than g++ here), optimised whatever the build type.
 
-include_guard(GLOBAL)
+include_guard(GLOBAL)  # what later includers read is cached: they are in other folders
 
 find_program(HARPOON_VERILATOR verilator)
 if(NOT HARPOON_VERILATOR)
-  set(HARPOON_HAVE_VERILATOR OFF)
+  set(HARPOON_HAVE_VERILATOR OFF CACHE INTERNAL "May harpoon_verilate be called?")
   message(STATUS "harpoon: no Verilator: the RTL is neither built nor tested")
   return()
 endif()
-set(HARPOON_HAVE_VERILATOR ON)
+set(HARPOON_HAVE_VERILATOR ON CACHE INTERNAL "May harpoon_verilate be called?")
 
 find_program(HARPOON_MODEL_CXX clang++ DOC "Compiler of the Verilated models")
 if(NOT HARPOON_MODEL_CXX)
-  set(HARPOON_MODEL_CXX ${CMAKE_CXX_COMPILER})
+  set(HARPOON_MODEL_CXX ${CMAKE_CXX_COMPILER} CACHE FILEPATH "" FORCE)
 endif()
 execute_process(COMMAND ${HARPOON_VERILATOR} --getenv VERILATOR_ROOT
                 OUTPUT_VARIABLE HARPOON_VERILATOR_ROOT OUTPUT_STRIP_TRAILING_WHITESPACE)

@@ -32,14 +32,16 @@ using Outputs = std::vector<std::uint32_t>;
 
 Words random_words(Random& random) {
   Words words{};
-  const std::uint32_t kind = random.below(4);
+  const std::uint32_t kind = test::random_below(random, 4);
   for (std::uint32_t& w : words) {
-    w = as_bits(random.unit());
-    if (kind == 1) w = as_bits(static_cast<float>(static_cast<int>(random.below(5)) - 2));
+    w = as_bits(test::random_unit(random));
+    if (kind == 1)
+      w = as_bits(static_cast<float>(static_cast<int>(test::random_below(random, 5)) - 2));
     if (kind == 2) w = test::any_float(random);
-    if (kind == 3) w = (w & 0x80ffffffU) | (random.below(2) << 23);  // around the subnormals
+    if (kind == 3)
+      w = (w & 0x80ffffffU) | (test::random_below(random, 2) << 23);  // around the subnormals
   }
-  if (random.below(4) == 0) {  // boxes that do overlap
+  if (test::random_below(random, 4) == 0) {  // boxes that do overlap
     for (std::size_t i = 0; i < 3; ++i) {
       words[i] |= 0x80000000U;
       words[3 + i] &= 0x7fffffffU;

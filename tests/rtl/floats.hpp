@@ -7,6 +7,8 @@
 #include <bit>
 #include <cstdint>
 
+#include "support/random.hpp"
+
 namespace harpoon::test {
 
 inline float as_float(std::uint32_t bits) {
@@ -34,39 +36,28 @@ inline bool same(std::uint32_t a, std::uint32_t b) {
   return a == b || (is_nan(a) && is_nan(b));
 }
 
-/// xorshift128+: fast enough not to be what a test of 10^7 vectors waits for.
-class Random {
- public:
-  explicit Random(std::uint64_t seed) : state_{seed ^ 0x9e3779b97f4a7c15U, 0xd1b54a32d192ed03U} {
-    for (int i = 0; i < 8; ++i) next();
-  }
+inline std::uint32_t random_word(Random& random) {
+  return static_cast<std::uint32_t>(random.bits() >> 32);
+}
 
-  std::uint64_t next() {
-    std::uint64_t a = state_[0];
-    const std::uint64_t b = state_[1];
-    state_[0] = b;
-    a ^= a << 23;
-    state_[1] = a ^ b ^ (a >> 17) ^ (b >> 26);
-    return state_[1] + b;
-  }
-  std::uint32_t word() { return static_cast<std::uint32_t>(next() >> 32); }
-  std::uint32_t below(std::uint32_t bound) {
-    return static_cast<std::uint32_t>((static_cast<std::uint64_t>(word()) * bound) >> 32);
-  }
-  /// In [-1, 1), all bits of the significand random.
-  float unit() { return static_cast<float>(static_cast<std::int32_t>(word())) * 0x1p-31F; }
+/// Uniform in [0, bound) but for 2^-32; without the division of Random::below, for 10^7 vectors.
+inline std::uint32_t random_below(Random& random, std::uint32_t bound) {
+  return static_cast<std::uint32_t>((std::uint64_t{random_word(random)} * bound) >> 32);
+}
 
- private:
-  std::array<std::uint64_t, 2> state_;
-};
+/// In [-1, 1], all bits of the significand random.
+inline float random_unit(Random& random) {
+  return static_cast<float>(static_cast<std::int32_t>(random_word(random))) * 0x1p-31F;
+}
 
 /// Any float; one in eight has a special exponent (0, 1, 254, 255), one in eight few bits set.
 inline std::uint32_t any_float(Random& random) {
-  std::uint32_t bits = random.word();
-  const std::uint32_t kind = random.below(8);
+  std::uint32_t bits = random_word(random);
+  const std::uint32_t kind = random_below(random, 8);
   constexpr std::array<std::uint32_t, 4> kExponents{0, 1, 254, 255};
-  if (kind == 0) bits = (bits & 0x807fffffU) | kExponents[random.below(4)] << 23;
-  if (kind == 1) bits = (bits & 0xff800000U) | (random.word() & 1U) << random.below(23);
+  if (kind == 0) bits = (bits & 0x807fffffU) | kExponents[random_below(random, 4)] << 23;
+  if (kind == 1)
+    bits = (bits & 0xff800000U) | (random_word(random) & 1U) << random_below(random, 23);
   return bits;
 }
 

@@ -194,8 +194,8 @@ constexpr std::array<std::uint32_t, 8> kSpecials{0x00000000, 0x80000000, 0x7f800
 /// Operands whose result is likely to round, cancel, overflow, underflow or just decide.
 Operands random_operands(Random& random) {
   Operands in{test::any_float(random), test::any_float(random)};
-  const std::uint32_t near = random.below(64) - 32;
-  switch (random.below(8)) {
+  const std::uint32_t near = test::random_below(random, 64) - 32;
+  switch (test::random_below(random, 8)) {
     case 0:
     case 1:  // exponents close together: sums align
       in.b = with_exponent(in.b, exponent_of(in.a) + near);
@@ -211,12 +211,14 @@ Operands random_operands(Random& random) {
       break;
     case 5: {  // a near b squared: the root comparison is close
       in.b &= 0x7fffffffU;
-      in.a = as_bits(as_float(in.b) * as_float(in.b)) + random.below(9) - 4;
+      in.a = as_bits(as_float(in.b) * as_float(in.b)) + test::random_below(random, 9) - 4;
       break;
     }
     case 6:
-      if (random.below(16) == 0) {  // nothing but special values: the invalid operations
-        in = {kSpecials[random.below(kSpecials.size())], kSpecials[random.below(kSpecials.size())]};
+      if (test::random_below(random, 16) ==
+          0) {  // nothing but special values: the invalid operations
+        in = {kSpecials[test::random_below(random, kSpecials.size())],
+              kSpecials[test::random_below(random, kSpecials.size())]};
       }
       break;
     default:

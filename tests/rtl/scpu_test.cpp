@@ -33,28 +33,28 @@ constexpr std::size_t kKinds = static_cast<std::size_t>(Kind::count);
 /// A pair of the given kind; `any` has all exponents, infinities and NaNs.
 Words make_pair(Random& random, Kind kind) {
   std::array<float, 8> f{};
-  for (float& x : f) x = random.unit();
+  for (float& x : f) x = test::random_unit(random);
   f[3] = 0.6F + 0.5F * f[3];
   f[7] = 0.6F + 0.5F * f[7];
   if (kind == Kind::touching) {  // along x, within a few steps of touching
     f[5] = f[1];
     f[6] = f[2];
-    const std::uint32_t steps = random.below(5);
+    const std::uint32_t steps = test::random_below(random, 5);
     f[4] = as_float(as_bits(f[0] + (f[3] + f[7])) + steps - 2);
   } else if (kind == Kind::coincident) {
     for (std::size_t i = 0; i < 3; ++i) f[4 + i] = f[i];
-    if (random.below(4) == 0) f[3] = f[7] = 0;
+    if (test::random_below(random, 4) == 0) f[3] = f[7] = 0;
   } else if (kind == Kind::lattice) {  // small integers: distances are often exactly r1 + r2
-    for (float& x : f) x = static_cast<float>(random.below(5));
+    for (float& x : f) x = static_cast<float>(test::random_below(random, 5));
   }
   Words words{};
   for (std::size_t i = 0; i < 8; ++i) words[i] = as_bits(f[i]);
   if (kind == Kind::subnormal) {
-    for (std::uint32_t& w : words) w = (w & 0x80000fffU) | random.below(0x40) << 18;
+    for (std::uint32_t& w : words) w = (w & 0x80000fffU) | test::random_below(random, 0x40) << 18;
   } else if (kind == Kind::any) {
     for (std::uint32_t& w : words) w = any_float(random);
-    if (random.below(2)) {  // of similar size, so that the radii matter
-      const std::uint32_t exponent = random.below(255);
+    if (test::random_below(random, 2)) {  // of similar size, so that the radii matter
+      const std::uint32_t exponent = test::random_below(random, 255);
       for (std::uint32_t& w : words) w = (w & 0x807fffffU) | (exponent ^ (w >> 23 & 1)) << 23;
       words[3] &= 0x7fffffffU;
       words[7] &= 0x7fffffffU;
@@ -132,10 +132,10 @@ TEST(Scpu, EqualsTheScalarColliderOnEveryKindOfPair) {
   int received = 0;
   int culled = 0;
   for (int sent = 0; received < kPairs && !HasFailure();) {
-    const bool send = sent < kPairs && random.below(16) != 0;
+    const bool send = sent < kPairs && test::random_below(random, 16) != 0;
     Words pair{};
     if (send) {
-      const auto kind = static_cast<Kind>(random.below(kKinds));
+      const auto kind = static_cast<Kind>(test::random_below(random, kKinds));
       ++kinds[static_cast<std::size_t>(kind)];
       pair = make_pair(random, kind);
       under_way.push_back(pair);
@@ -224,7 +224,7 @@ TEST(Scpu, GraphAndPipelineEqualTheScalarCollider) {
   std::deque<Words> under_way;
   std::array<int, 4> flows{};
   for (int i = 0; i < 20'000 && !HasFailure(); ++i) {
-    const Words pair = make_pair(random, static_cast<Kind>(random.below(kKinds)));
+    const Words pair = make_pair(random, static_cast<Kind>(test::random_below(random, kKinds)));
     const Words want = scalar_contact(pair);
     ++flows[want[7]];
     expect_same_contact(pair, record(hls::evaluate(pipeline.graph, pair)), want);

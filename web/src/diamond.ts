@@ -36,10 +36,12 @@ function stage_scene(stage: HTMLElement, scene: Scene): void {
     painter = next;
     stage.dataset["painter"] = kind;
     stage.replaceChildren(next.canvas);
-    paint();
   };
   const without_webgl = (): void => use(canvas_painter(scene), "canvas");
-  const webgl = webgl_painter(scene, without_webgl);
+  const webgl = webgl_painter(scene, () => {
+    without_webgl();
+    paint();
+  });
   if (webgl) use(webgl, "webgl");
   else without_webgl();
   let asked = false;

@@ -294,25 +294,24 @@ class FigureChart {
     };
   }
 
+  /** Without data, when every line is hidden, uPlot asks with null: any valid range will do. */
   private x_axis_scale(): uPlot.Scale {
     const log = this.x_scale_ === "log";
-    return log
-      ? {
-          time: false,
-          distr: 3,
-          range: (_, min, max) => (min < max ? [min, max] : [min / 2, min * 2]),
-        }
-      : {
-          time: false,
-          distr: 1,
-          range: (_, min, max) => [min === this.data_.counts[0] ? 0 : min, max],
-        };
+    const range = (min: number | null, max: number | null): [number, number] => {
+      if (min === null || max === null) return [1, 10];
+      if (log) return min < max ? [min, max] : [min / 2, min * 2];
+      return [min === this.data_.counts[0] ? 0 : min, max];
+    };
+    return { time: false, distr: log ? 3 : 1, range: (_, min, max) => range(min, max) };
   }
 
   private y_axis_scale(): uPlot.Scale {
-    return this.y_scale_ === "log"
-      ? { distr: 3, range: (_, min, max) => [min * 0.8, max * 1.9] }
-      : { distr: 1, range: (_, _min, max) => [0, max * 1.12] };
+    const log = this.y_scale_ === "log";
+    const range = (min: number | null, max: number | null): [number, number] => {
+      if (min === null || max === null) return [1, 10];
+      return log ? [min * 0.8, max * 1.9] : [0, max * 1.12];
+    };
+    return { distr: log ? 3 : 1, range: (_, min, max) => range(min, max) };
   }
 
   /** The line itself, and for a series the two invisible edges of its band. */

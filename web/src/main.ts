@@ -19,7 +19,7 @@ function diamonds_section(report: Report): { section: HTMLElement | undefined; d
   const diamonds = report.diamonds.map(make_diamond);
   if (diamonds.length === 0) return { section: undefined, draw: () => undefined };
   const hint =
-    "Drag to turn, or focus one and use arrow keys, + and -, or the wheel. Inner layers are darker.";
+    "Drag to turn, or focus one and use arrow keys, + and -, the wheel. Inner layers are darker.";
   const section = h(
     "section",
     { id: "figure-4" },

@@ -1,15 +1,15 @@
-// Paints a diamond with three.js: one instanced sphere, light from beside the eye.
+// Paints a diamond with three.js. Every ball is one instance of a square that faces the eye, on
+// which the shader draws a lit sphere: round at any size, and 37,881 of them turn smoothly even
+// where a processor plays the graphics card.
 
 import {
-  AmbientLight,
   Color,
-  DirectionalLight,
   InstancedMesh,
   Matrix4,
-  MeshLambertMaterial,
   PerspectiveCamera,
+  PlaneGeometry,
   Scene as World,
-  SphereGeometry,
+  ShaderMaterial,
   WebGLRenderer,
 } from "three";
 import {
@@ -22,24 +22,44 @@ import {
   type Scene,
 } from "./scene.ts";
 
-/** Finer spheres for fewer of them: 37,881 are three million triangles. */
-function sphere(balls: number, radius: number): SphereGeometry {
-  const segments = balls > 4000 ? 8 : balls > 400 ? 18 : 48;
-  return new SphereGeometry(radius, segments, Math.round(segments * 0.7));
-}
+const kVertexShader = `
+  uniform float radius;
+  varying vec2 at;
+  varying vec3 tint;
+  void main() {
+    at = position.xy;
+    tint = instanceColor;
+    vec4 centre = modelViewMatrix * instanceMatrix * vec4(0.0, 0.0, 0.0, 1.0);
+    gl_Position = projectionMatrix * (centre + vec4(position.xy * radius, 0.0, 0.0));
+  }`;
+
+const kFragmentShader = `
+  varying vec2 at;
+  varying vec3 tint;
+  const vec3 sun = vec3(-0.42, 0.70, 0.58);
+  void main() {
+    float reach = length(at);
+    float cover = clamp((1.0 - reach) / fwidth(reach) + 0.5, 0.0, 1.0);
+    if (cover == 0.0) discard;
+    vec3 normal = vec3(at, sqrt(max(0.0, 1.0 - reach * reach)));
+    gl_FragColor = vec4(tint * (0.34 + 0.76 * max(0.0, dot(normal, sun))), cover);
+    #include <colorspace_fragment>
+  }`;
 
 function instances(scene: Scene): InstancedMesh {
-  const { balls, radius } = scene;
-  const mesh = new InstancedMesh(
-    sphere(balls.length, radius),
-    new MeshLambertMaterial(),
-    balls.length,
-  );
+  const material = new ShaderMaterial({
+    vertexShader: kVertexShader,
+    fragmentShader: kFragmentShader,
+    uniforms: { radius: { value: scene.radius } },
+    alphaToCoverage: true,
+  });
+  const mesh = new InstancedMesh(new PlaneGeometry(2, 2), material, scene.balls.length);
   const place = new Matrix4();
-  balls.forEach((ball, n) => {
+  scene.balls.forEach((ball, n) => {
     mesh.setMatrixAt(n, place.makeTranslation(ball.x, ball.y, ball.z));
     mesh.setColorAt(n, new Color(kBallColour).multiplyScalar(layer_light(ball.layer)));
   });
+  mesh.frustumCulled = false;
   return mesh;
 }
 
@@ -47,11 +67,10 @@ function make_renderer(): WebGLRenderer | undefined {
   const canvas = document.createElement("canvas");
   const context = canvas.getContext("webgl2", {
     antialias: true,
-    alpha: true,
+    alpha: false,
     preserveDrawingBuffer: true,
   });
-  if (!context) return undefined;
-  return new WebGLRenderer({ canvas, context, alpha: true });
+  return context ? new WebGLRenderer({ canvas, context }) : undefined;
 }
 
 /** A painter, or nothing where the browser has no WebGL. Calls `on_lost` if it loses it later. */
@@ -63,15 +82,19 @@ export function webgl_painter(scene: Scene, on_lost: () => void): Painter | unde
   const world = new World();
   const camera = new PerspectiveCamera((kFieldOfView * 180) / Math.PI, 1, 1, 2 * kDistance);
   camera.up.set(0, 0, 1);
-  const sun = new DirectionalLight("white", 2.4);
-  sun.position.set(-0.6, 1, 0.8);
-  camera.add(sun);
-  world.add(instances(scene), new AmbientLight("white", 1.1), camera);
+  world.add(instances(scene), camera);
   return {
     canvas,
     paint(eye, width, height) {
-      renderer.setPixelRatio(Math.min(2, devicePixelRatio));
-      renderer.setSize(width, height, false);
+      const ratio = Math.min(2, devicePixelRatio);
+      if (
+        canvas.width !== Math.floor(width * ratio) ||
+        canvas.height !== Math.floor(height * ratio)
+      ) {
+        renderer.setDrawingBufferSize(width, height, ratio);
+      }
+      const place = canvas.parentElement ?? document.body;
+      renderer.setClearColor(new Color(getComputedStyle(place).backgroundColor));
       camera.aspect = width / height;
       camera.zoom = eye.zoom;
       camera.position.set(...direction(eye)).multiplyScalar(kDistance);

@@ -6,4 +6,5 @@
 #include "harpoon/error.hpp"
 #include "harpoon/export.hpp"
 #include "harpoon/records.hpp"
+#include "harpoon/scene.hpp"
 #include "harpoon/version.hpp"

@@ -1,0 +1,64 @@
+#pragma once
+
+// What the sort and the search must agree on: how a body's coordinates become a cell, a bucket and
+// the buckets around it. Plain data, chosen by plan.cpp, read by the kernels. docs/scene.md proves
+// that no contact is lost.
+
+#include <cstddef>
+#include <cstdint>
+
+namespace harpoon::scene {
+
+/// Bodies that are searched together; every block starts at a multiple of this in its level.
+inline constexpr std::size_t kBlockBodies = 256;
+/// Elements that may be read or written past the end of a sorted array or a candidate list.
+inline constexpr std::size_t kSlack = 64;
+
+/// The grid of one level (size class). `Cull` is the number type of culling.
+///
+/// Along y and z the unit is the sub-cell, at least as wide as two bodies of the level can reach;
+/// 2^row_shift sub-cells make a row, so a body needs a neighbouring row only when it sits in the
+/// outermost sub-cell. Along x a cell is 1 / half_window of that reach. The bucket of a body is
+///   (ix + stride_y * (iy >> row_shift) + stride_z * (iz >> row_shift)) & mask.
+/// With mask = 2^32 - 1 buckets and cells are one to one ("dense"), with empty cells at the end of
+/// every line and plane so that neighbours never run over. Otherwise the world is folded: far-apart
+/// cells share a bucket, which costs tests but no memory, and no two buckets of a neighbourhood
+/// coincide.
+template <class Cull>
+struct Grid {
+  Cull origin[3] = {0, 0, 0};
+  Cull cells_per_unit_x = 0;
+  Cull sub_cells_per_unit = 0;
+  Cull last_cell_x = 0;  ///< largest ix that a body has
+  Cull last_sub_cell_y = 0;
+  Cull last_sub_cell_z = 0;
+  Cull max_radius = 0;  ///< of the level, as used for culling
+  std::uint32_t row_shift = 0;
+  std::uint32_t half_window = 1;
+  std::uint32_t stride_y = 0;
+  std::uint32_t stride_z = 0;
+  std::uint32_t mask = 0xFFFFFFFFU;
+  std::uint32_t buckets = 0;
+  std::uint32_t begin = 0;  ///< sorted positions of the level's bodies
+  std::uint32_t end = 0;
+  /// ends[b] is the position after the last body of bucket b; ends[-1] == begin.
+  std::uint32_t* ends = nullptr;
+
+  [[nodiscard]] bool folded() const noexcept { return mask != 0xFFFFFFFFU; }
+};
+
+/// How culling coordinates and radii come from the bodies' own.
+///   coordinate: Cull(x - origin), radius: Cull(r) * kRadiusScale + radius_pad
+struct CullMap {
+  double origin[3] = {0, 0, 0};
+  double radius_pad = 0;
+};
+inline constexpr double kRadiusScale = 1.0 + 0x1p-19;
+
+/// Sorted bodies as the search reads them: culling coordinates, one array each.
+template <class Cull>
+struct CullArrays {
+  Cull *x, *y, *z, *r;
+};
+
+}  // namespace harpoon::scene

@@ -1,0 +1,783 @@
+// One source for every instruction set: Highway compiles this file once per target. Bodies lie
+// sorted by bucket, so the neighbours of a body are a few contiguous runs; each run is tested a
+// vector at a time and the hits are compressed into a list of candidates. Culling may use any
+// arithmetic because its radii are inflated; what decides is src/collide/sphere_sphere.inl alone.
+
+#include "scene/kernels.hpp"
+
+#include <algorithm>
+#include <bit>
+#include <cstring>
+
+#undef HWY_TARGET_INCLUDE
+#define HWY_TARGET_INCLUDE "scene/kernels.cpp"
+#include "hwy/foreach_target.h"
+#include "hwy/highway.h"
+
+#include "collide/simd.inl"
+
+HWY_BEFORE_NAMESPACE();
+namespace harpoon::scene::HWY_NAMESPACE {
+namespace {
+
+namespace hn = hwy::HWY_NAMESPACE;
+namespace simd = colliders::HWY_NAMESPACE;
+
+template <class T>
+using Tag = hn::ScalableTag<T>;
+template <class T>
+using Vector = hn::Vec<Tag<T>>;
+using Index = Tag<std::uint32_t>;
+
+constexpr std::size_t kMaxLanes = HWY_MAX_BYTES / sizeof(float);
+static_assert(kMaxLanes <= kSlack);
+static_assert(std::endian::native == std::endian::little);
+
+/// One vector of bodies, field by field.
+template <class T>
+struct Bodies {
+  Vector<T> x, y, z, r;
+};
+
+/// Bodies [i, i + valid) of any source, the last one repeated to fill the vector.
+template <class Real>
+HWY_INLINE Bodies<Real> load_bodies(const Source<Real>& source, std::size_t i, std::size_t valid) {
+  const Tag<Real> d;
+  const std::size_t lanes = hn::Lanes(d);
+  Bodies<Real> b;
+  if (valid >= lanes && source.records()) {
+    hn::LoadInterleaved4(d, source.x + 4 * i, b.x, b.y, b.z, b.r);
+    return b;
+  }
+  if (valid >= lanes && source.stride_bytes == sizeof(Real)) {
+    return {hn::LoadU(d, source.x + i), hn::LoadU(d, source.y + i), hn::LoadU(d, source.z + i),
+            hn::LoadU(d, source.r + i)};
+  }
+  HWY_ALIGN SphereOf<Real> copy[HWY_MAX_BYTES / sizeof(Real)];
+  for (std::size_t l = 0; l < lanes; ++l) copy[l] = source[i + std::min(l, valid - 1)];
+  hn::LoadInterleaved4(d, &copy[0].x, b.x, b.y, b.z, b.r);
+  return b;
+}
+
+// ---- Bounds ---------------------------------------------------------------------------------
+
+template <class Real>
+Bounds<Real> bounds(const Source<Real>& source, std::size_t begin, std::size_t end) {
+  const Tag<Real> d;
+  const std::size_t lanes = hn::Lanes(d);
+  const auto limit = hn::Set(d, kLimit<Real>);
+  const auto high = hn::Set(d, std::numeric_limits<Real>::infinity());
+  const auto low = hn::Neg(high);
+  Vector<Real> min[4] = {high, high, high, high};
+  Vector<Real> max[4] = {low, low, low, low};
+  std::size_t invalid = 0;
+  for (std::size_t i = begin; i < end; i += lanes) {
+    const std::size_t valid_lanes = std::min(lanes, end - i);
+    const Bodies<Real> b = load_bodies(source, i, valid_lanes);
+    const auto biggest = hn::Max(hn::Max(hn::Abs(b.x), hn::Abs(b.y)), hn::Abs(b.z));
+    // Max may hide a NaN, a sum does not.
+    const auto sum = hn::Add(hn::Add(b.x, b.y), hn::Add(b.z, b.r));
+    const auto valid = hn::And(hn::And(hn::Le(biggest, limit), hn::Eq(sum, sum)),
+                               hn::And(hn::Ge(b.r, hn::Zero(d)), hn::Le(b.r, limit)));
+    const auto present = hn::FirstN(d, valid_lanes);
+    invalid += hn::CountTrue(d, hn::And(hn::Not(valid), present));
+    const Vector<Real> fields[4] = {b.x, b.y, b.z, b.r};
+    for (int k = 0; k < 4; ++k) {
+      min[k] = hn::Min(min[k], hn::IfThenElse(valid, fields[k], high));
+      max[k] = hn::Max(max[k], hn::IfThenElse(valid, fields[k], low));
+    }
+  }
+  Bounds<Real> out;
+  for (int k = 0; k < 4; ++k) {
+    out.min[k] = hn::GetLane(hn::MinOfLanes(d, min[k]));
+    out.max[k] = hn::GetLane(hn::MaxOfLanes(d, max[k]));
+  }
+  out.invalid = invalid;
+  return out;
+}
+
+// ---- Cells ----------------------------------------------------------------------------------
+// The arithmetic that follows is part of the order of results: the same operations on every
+// instruction set, no contraction.
+
+/// Cell numbers of one vector of bodies in float, bucket and row parts.
+struct CellVectors {
+  hn::Vec<Index> bucket, sub_y, sub_z;
+};
+
+HWY_INLINE hn::Vec<Index> to_index(const Vector<float>& v) {
+  return hn::BitCast(Index(), hn::ConvertTo(Tag<std::int32_t>(), v));
+}
+
+HWY_INLINE hn::Vec<Index> shifted(const hn::Vec<Index>& v, std::uint32_t shift) {
+  return hn::ShiftRightSame(v, static_cast<int>(shift));
+}
+
+HWY_INLINE CellVectors cells_of(const Grid<float>& grid, const Vector<float>& x,
+                                const Vector<float>& y, const Vector<float>& z) {
+  const Tag<float> d;
+  const Index du;
+  const auto per_x = hn::Set(d, grid.cells_per_unit_x);
+  const auto per_sub = hn::Set(d, grid.sub_cells_per_unit);
+  const auto ix = to_index(hn::Mul(hn::Sub(x, hn::Set(d, grid.origin[0])), per_x));
+  const auto sub_y = to_index(hn::Mul(hn::Sub(y, hn::Set(d, grid.origin[1])), per_sub));
+  const auto sub_z = to_index(hn::Mul(hn::Sub(z, hn::Set(d, grid.origin[2])), per_sub));
+  const auto row_y = hn::Mul(shifted(sub_y, grid.row_shift), hn::Set(du, grid.stride_y));
+  const auto row_z = hn::Mul(shifted(sub_z, grid.row_shift), hn::Set(du, grid.stride_z));
+  return {hn::And(hn::Add(hn::Add(ix, row_y), row_z), hn::Set(du, grid.mask)), sub_y, sub_z};
+}
+
+/// The same for one body in double.
+struct Cell {
+  std::uint32_t bucket, sub_y, sub_z;
+};
+
+HWY_INLINE Cell cell_of(const Grid<double>& grid, double x, double y, double z) {
+  const auto ix = static_cast<std::uint32_t>((x - grid.origin[0]) * grid.cells_per_unit_x);
+  const auto sub_y = static_cast<std::uint32_t>((y - grid.origin[1]) * grid.sub_cells_per_unit);
+  const auto sub_z = static_cast<std::uint32_t>((z - grid.origin[2]) * grid.sub_cells_per_unit);
+  return {
+      (ix + grid.stride_y * (sub_y >> grid.row_shift) + grid.stride_z * (sub_z >> grid.row_shift)) &
+          grid.mask,
+      sub_y, sub_z};
+}
+
+/// Culling coordinates of a float body are its own.
+HWY_INLINE Bodies<float> cull_bodies(const Source<float>& source, const CullMap&, std::size_t i,
+                                     std::size_t valid) {
+  return load_bodies(source, i, valid);
+}
+
+/// Those of a double body are taken from the map's origin, where float resolves them.
+HWY_INLINE Bodies<float> cull_bodies(const Source<double>& source, const CullMap& map,
+                                     std::size_t i, std::size_t valid) {
+  const Tag<double> d;
+  const hn::Rebind<float, Tag<double>> df;
+  const std::size_t step = hn::Lanes(d);
+  const std::size_t lanes = hn::Lanes(Tag<float>());
+  HWY_ALIGN float fields[4][kMaxLanes];
+  for (std::size_t l = 0; l < lanes; l += step) {
+    const std::size_t first = std::min(l, valid - 1);
+    const Bodies<double> b = load_bodies(source, i + first, valid - first);
+    hn::StoreU(hn::DemoteTo(df, hn::Sub(b.x, hn::Set(d, map.origin[0]))), df, fields[0] + l);
+    hn::StoreU(hn::DemoteTo(df, hn::Sub(b.y, hn::Set(d, map.origin[1]))), df, fields[1] + l);
+    hn::StoreU(hn::DemoteTo(df, hn::Sub(b.z, hn::Set(d, map.origin[2]))), df, fields[2] + l);
+    hn::StoreU(hn::DemoteTo(df, b.r), df, fields[3] + l);
+  }
+  const Tag<float> df_full;
+  return {hn::Load(df_full, fields[0]), hn::Load(df_full, fields[1]), hn::Load(df_full, fields[2]),
+          hn::Load(df_full, fields[3])};
+}
+
+template <class Real>
+void buckets_float(const Source<Real>& source, const CullMap& map, const Grid<float>& grid,
+                   std::size_t begin, std::size_t end, std::uint32_t* buckets) {
+  const Index du;
+  const std::size_t lanes = hn::Lanes(du);
+  HWY_ALIGN std::uint32_t last[kMaxLanes];
+  for (std::size_t i = begin; i < end; i += lanes) {
+    const std::size_t valid = std::min(lanes, end - i);
+    const Bodies<float> b = cull_bodies(source, map, i, valid);
+    const auto bucket = cells_of(grid, b.x, b.y, b.z).bucket;
+    if (valid == lanes) {
+      hn::StoreU(bucket, du, buckets + i);
+    } else {
+      hn::Store(bucket, du, last);
+      std::memcpy(buckets + i, last, valid * sizeof last[0]);
+    }
+  }
+}
+
+template <class Real>
+void buckets_double(const Source<Real>& source, const CullMap&, const Grid<double>& grid,
+                    std::size_t begin, std::size_t end, std::uint32_t* buckets) {
+  for (std::size_t i = begin; i < end; ++i) {
+    const SphereOf<Real> b = source[i];
+    buckets[i] =
+        cell_of(grid, static_cast<double>(b.x), static_cast<double>(b.y), static_cast<double>(b.z))
+            .bucket;
+  }
+}
+
+template <class Real>
+void cull_arrays_float(const SphereOf<Real>* bodies, const CullMap& map, std::size_t begin,
+                       std::size_t end, const CullArrays<float>& out) {
+  const Tag<float> d;
+  const std::size_t lanes = hn::Lanes(d);
+  const Source<Real> source{&bodies->x, &bodies->y, &bodies->z, &bodies->r, sizeof bodies[0], end};
+  const auto scale = hn::Set(d, static_cast<float>(kRadiusScale));
+  const auto pad = hn::Set(d, static_cast<float>(map.radius_pad));
+  HWY_ALIGN float last[4][kMaxLanes];
+  for (std::size_t i = begin; i < end; i += lanes) {
+    const std::size_t valid = std::min(lanes, end - i);
+    Bodies<float> b = cull_bodies(source, map, i, valid);
+    b.r = hn::Add(hn::Mul(b.r, scale), pad);
+    if (valid == lanes) {
+      hn::StoreU(b.x, d, out.x + i);
+      hn::StoreU(b.y, d, out.y + i);
+      hn::StoreU(b.z, d, out.z + i);
+      hn::StoreU(b.r, d, out.r + i);
+    } else {
+      hn::Store(b.x, d, last[0]);
+      hn::Store(b.y, d, last[1]);
+      hn::Store(b.z, d, last[2]);
+      hn::Store(b.r, d, last[3]);
+      float* const to[4] = {out.x + i, out.y + i, out.z + i, out.r + i};
+      for (int k = 0; k < 4; ++k) std::memcpy(to[k], last[k], valid * sizeof(float));
+    }
+  }
+}
+
+template <class Real>
+void cull_arrays_double(const SphereOf<Real>* bodies, const CullMap& map, std::size_t begin,
+                        std::size_t end, const CullArrays<double>& out) {
+  for (std::size_t i = begin; i < end; ++i) {
+    out.x[i] = static_cast<double>(bodies[i].x);
+    out.y[i] = static_cast<double>(bodies[i].y);
+    out.z[i] = static_cast<double>(bodies[i].z);
+    out.r[i] = static_cast<double>(bodies[i].r) * kRadiusScale + map.radius_pad;
+  }
+}
+
+// ---- Search ---------------------------------------------------------------------------------
+
+/// The end of a list, kept in registers while a block is searched.
+struct Cursor {
+  std::uint32_t* i;
+  std::uint32_t* j;
+  std::size_t count, capacity;
+};
+
+HWY_INLINE Cursor cursor_of(const Candidates& list) {
+  return {list.i, list.j, list.count, list.capacity};
+}
+
+HWY_NOINLINE Cursor make_room(Cursor cursor, Candidates& list, RoomMaker& room) {
+  list.count = cursor.count;
+  room.make_room(room, list);
+  return cursor_of(list);
+}
+
+/// Exactly as many bytes as the mask has, so that it stays in registers.
+template <class D, class M>
+HWY_INLINE std::uint32_t mask_bits(D d, const M& mask) {
+  std::conditional_t<(hn::MaxLanes(D()) > 8), std::uint16_t, std::uint8_t> bits;
+  hn::StoreMaskBits(d, mask, reinterpret_cast<std::uint8_t*>(&bits));
+  return bits;
+}
+
+/// Appends the lanes of `hits`, whose bodies start at sorted position j, as partners of body i;
+/// without a branch, because which tests hit is unpredictable.
+template <class M>
+HWY_INLINE void append(Tag<float> d, const M& hits, std::uint32_t i, std::uint32_t j,
+                       Cursor& cursor) {
+  const Index du;
+  const auto partners = hn::Add(hn::Set(du, j), hn::Iota(du, 0));
+  hn::StoreU(hn::Compress(partners, hn::RebindMask(du, hits)), du, cursor.j + cursor.count);
+  hn::StoreU(hn::Set(du, i), du, cursor.i + cursor.count);
+  cursor.count += hn::CountTrue(d, hits);
+}
+
+template <class M>
+HWY_INLINE void append(Tag<double> d, const M& hits, std::uint32_t i, std::uint32_t j,
+                       Cursor& cursor) {
+  for (std::uint32_t bits = mask_bits(d, hits); bits != 0; bits &= bits - 1) {
+    cursor.i[cursor.count] = i;
+    cursor.j[cursor.count] =
+        j + static_cast<std::uint32_t>(hwy::Num0BitsBelowLS1Bit_Nonzero32(bits));
+    ++cursor.count;
+  }
+}
+
+/// What the tests of one block share.
+template <class Cull>
+struct BlockSearch {
+  const CullArrays<Cull> bodies;
+  std::uint32_t begin;  ///< sorted position of the block
+  Candidates& list;
+  RoomMaker& room;
+};
+
+/// The block's k-th body against the sorted positions [first, end).
+template <class Cull>
+HWY_INLINE Cursor test_run(const BlockSearch<Cull>& block, std::uint32_t k, std::uint32_t first,
+                           std::uint32_t end, Cursor cursor) {
+  const Tag<Cull> d;
+  const auto lanes = static_cast<std::uint32_t>(hn::Lanes(d));
+  const CullArrays<Cull>& bodies = block.bodies;
+  const std::uint32_t i = block.begin + k;
+  const auto xi = hn::Set(d, bodies.x[i]);
+  const auto yi = hn::Set(d, bodies.y[i]);
+  const auto zi = hn::Set(d, bodies.z[i]);
+  const auto ri = hn::Set(d, bodies.r[i]);
+  std::uint32_t j = first;
+  do {
+    const auto dx = hn::Sub(hn::LoadU(d, bodies.x + j), xi);
+    const auto dy = hn::Sub(hn::LoadU(d, bodies.y + j), yi);
+    const auto dz = hn::Sub(hn::LoadU(d, bodies.z + j), zi);
+    const auto reach = hn::Add(hn::LoadU(d, bodies.r + j), ri);
+    const auto squared = hn::MulAdd(dx, dx, hn::MulAdd(dy, dy, hn::Mul(dz, dz)));
+    const auto near = hn::Le(squared, hn::Mul(reach, reach));
+    append(d, hn::And(near, hn::FirstN(d, end - j)), i, j, cursor);
+    if (HWY_UNLIKELY(cursor.count + kMaxLanes > cursor.capacity)) {
+      cursor = make_room(cursor, block.list, block.room);
+    }
+    j += lanes;
+  } while (HWY_UNLIKELY(j < end));
+  return cursor;
+}
+
+/// The block's k-th body against `length` buckets from `first` on, which may run over the end of a
+/// folded table. Adds to `tested`.
+template <class Cull>
+HWY_INLINE Cursor test_buckets(const BlockSearch<Cull>& block, const Grid<Cull>& grid,
+                               std::uint32_t k, std::uint32_t first, std::uint32_t length,
+                               Cursor cursor, std::uint64_t& tested) {
+  const std::uint32_t last = first + length - 1;
+  const std::uint32_t begin = grid.ends[static_cast<std::ptrdiff_t>(first) - 1];
+  if (HWY_LIKELY(last < grid.buckets)) {
+    const std::uint32_t end = grid.ends[last];
+    tested += end - begin;
+    return test_run(block, k, begin, end, cursor);
+  }
+  const std::uint32_t end = grid.ends[last - grid.buckets];
+  tested += grid.end - begin + (end - grid.begin);
+  cursor = test_run(block, k, begin, grid.end, cursor);
+  return test_run(block, k, grid.begin, end, cursor);
+}
+
+/// Some bodies of a block, as offsets from its first.
+struct Selection {
+  std::uint32_t count = 0;
+  HWY_ALIGN std::uint32_t offset[kBlockBodies + kSlack];
+
+  template <class M>
+  HWY_INLINE void add(const hn::Vec<Index>& offsets, const M& mask) {
+    const Index du;
+    hn::StoreU(hn::Compress(offsets, mask), du, offset + count);
+    count += static_cast<std::uint32_t>(hn::CountTrue(du, mask));
+  }
+  HWY_INLINE void add_if(std::uint32_t value, bool wanted) {
+    offset[count] = value;
+    count += wanted ? 1 : 0;
+  }
+};
+
+/// The bodies of a block in their own grid: buckets, and who is at which edge of its row.
+struct OwnCells {
+  HWY_ALIGN std::uint32_t bucket[kBlockBodies + kSlack];
+  Selection last_y, last_z, last_z_last_y, last_z_first_y;
+};
+
+HWY_INLINE void fill_own_cells(const SearchJob<float>& job, const Grid<float>& grid,
+                               std::uint32_t begin, std::uint32_t count, OwnCells& out) {
+  const Tag<float> d;
+  const Index du;
+  const auto lanes = static_cast<std::uint32_t>(hn::Lanes(d));
+  const auto in_row = hn::Set(du, (1U << grid.row_shift) - 1);
+  for (std::uint32_t k = 0; k < count; k += lanes) {
+    const CellVectors c =
+        cells_of(grid, hn::LoadU(d, job.bodies.x + begin + k),
+                 hn::LoadU(d, job.bodies.y + begin + k), hn::LoadU(d, job.bodies.z + begin + k));
+    hn::StoreU(c.bucket, du, out.bucket + k);
+    const auto offsets = hn::Iota(du, k);
+    const auto present = hn::FirstN(du, count - k);
+    const auto y = hn::And(c.sub_y, in_row);
+    const auto last_y = hn::And(present, hn::Eq(y, in_row));
+    const auto first_y = hn::And(present, hn::Eq(y, hn::Zero(du)));
+    const auto last_z = hn::And(present, hn::Eq(hn::And(c.sub_z, in_row), in_row));
+    out.last_y.add(offsets, last_y);
+    out.last_z.add(offsets, last_z);
+    out.last_z_last_y.add(offsets, hn::And(last_z, last_y));
+    out.last_z_first_y.add(offsets, hn::And(last_z, first_y));
+  }
+}
+
+HWY_INLINE void fill_own_cells(const SearchJob<double>& job, const Grid<double>& grid,
+                               std::uint32_t begin, std::uint32_t count, OwnCells& out) {
+  const std::uint32_t in_row = (1U << grid.row_shift) - 1;
+  for (std::uint32_t k = 0; k < count; ++k) {
+    const Cell c =
+        cell_of(grid, job.bodies.x[begin + k], job.bodies.y[begin + k], job.bodies.z[begin + k]);
+    out.bucket[k] = c.bucket;
+    const bool last_y = (c.sub_y & in_row) == in_row;
+    const bool first_y = (c.sub_y & in_row) == 0;
+    const bool last_z = (c.sub_z & in_row) == in_row;
+    out.last_y.add_if(k, last_y);
+    out.last_z.add_if(k, last_z);
+    out.last_z_last_y.add_if(k, last_z && last_y);
+    out.last_z_first_y.add_if(k, last_z && first_y);
+  }
+}
+
+/// The selected bodies against the neighbouring row `offset` buckets away.
+template <class Cull>
+HWY_INLINE Cursor search_row(const BlockSearch<Cull>& block, const Grid<Cull>& grid,
+                             const OwnCells& cells, const Selection& who, std::uint32_t offset,
+                             Cursor cursor, std::uint64_t& tested) {
+  const std::uint32_t from = offset - grid.half_window;
+  const std::uint32_t length = 2 * grid.half_window + 1;
+  for (std::uint32_t n = 0; n < who.count; ++n) {
+    const std::uint32_t k = who.offset[n];
+    const std::uint32_t first = (cells.bucket[k] + from) & grid.mask;
+    cursor = test_buckets(block, grid, k, first, length, cursor, tested);
+  }
+  return cursor;
+}
+
+/// A block among the bodies of its own level: its own rows forward, then the rows after them.
+template <class Cull>
+HWY_NOINLINE std::uint64_t search_own_level(const SearchJob<Cull>& job, const Grid<Cull>& grid,
+                                            std::uint32_t begin, std::uint32_t end,
+                                            Candidates& list, RoomMaker& room) {
+  OwnCells cells;
+  fill_own_cells(job, grid, begin, end - begin, cells);
+  const BlockSearch<Cull> block{job.bodies, begin, list, room};
+  Cursor cursor = cursor_of(list);
+  std::uint64_t tested = 0;
+  for (std::uint32_t i = begin; i < end; ++i) {
+    const std::uint32_t k = i - begin;
+    const std::uint32_t last = cells.bucket[k] + grid.half_window;
+    if (HWY_LIKELY(last < grid.buckets)) {
+      tested += grid.ends[last] - i - 1;
+      cursor = test_run(block, k, i + 1, grid.ends[last], cursor);
+    } else {
+      const std::uint32_t wrapped = grid.ends[last - grid.buckets];
+      tested += grid.end - i - 1 + (wrapped - grid.begin);
+      cursor = test_run(block, k, i + 1, grid.end, cursor);
+      cursor = test_run(block, k, grid.begin, wrapped, cursor);
+    }
+  }
+  const std::uint32_t y = grid.stride_y;
+  const std::uint32_t z = grid.stride_z;
+  cursor = search_row(block, grid, cells, cells.last_y, y, cursor, tested);
+  cursor = search_row(block, grid, cells, cells.last_z_first_y, z - y, cursor, tested);
+  cursor = search_row(block, grid, cells, cells.last_z, z, cursor, tested);
+  cursor = search_row(block, grid, cells, cells.last_z_last_y, z + y, cursor, tested);
+  list.count = cursor.count;
+  return tested;
+}
+
+/// The bodies of a block in a coarser grid: the first row that each reaches, its cells along x, and
+/// who reaches a second row.
+struct ForeignCells {
+  HWY_ALIGN std::uint32_t first[kBlockBodies + kSlack];
+  HWY_ALIGN std::uint32_t length[kBlockBodies + kSlack];
+  Selection all, next_y, next_z, next_both;
+};
+
+struct Interval {
+  hn::Vec<Index> low, high;
+};
+
+/// Cells that [at - reach, at + reach] overlaps, of those that hold bodies. Rounding is monotone
+/// and coordinates are exact, so no body in reach is outside.
+HWY_INLINE Interval cells_between(const Vector<float>& at, const Vector<float>& reach, float origin,
+                                  float per_unit, float last) {
+  const Tag<float> d;
+  const auto start = hn::Set(d, origin);
+  const auto scale = hn::Set(d, per_unit);
+  const auto top = hn::Set(d, last);
+  const auto low = hn::Mul(hn::Sub(hn::Sub(at, reach), start), scale);
+  const auto high = hn::Mul(hn::Sub(hn::Add(at, reach), start), scale);
+  return {to_index(hn::Min(hn::Max(low, hn::Zero(d)), top)),
+          to_index(hn::Min(hn::Max(high, hn::Zero(d)), top))};
+}
+
+HWY_INLINE void fill_foreign_cells(const SearchJob<float>& job, const Grid<float>& grid,
+                                   std::uint32_t begin, std::uint32_t count, ForeignCells& out) {
+  const Tag<float> d;
+  const Index du;
+  const auto lanes = static_cast<std::uint32_t>(hn::Lanes(d));
+  const auto largest = hn::Set(d, grid.max_radius);
+  const std::uint32_t shift = grid.row_shift;
+  for (std::uint32_t k = 0; k < count; k += lanes) {
+    const auto reach = hn::Add(hn::LoadU(d, job.bodies.r + begin + k), largest);
+    const Interval x = cells_between(hn::LoadU(d, job.bodies.x + begin + k), reach, grid.origin[0],
+                                     grid.cells_per_unit_x, grid.last_cell_x);
+    const Interval y = cells_between(hn::LoadU(d, job.bodies.y + begin + k), reach, grid.origin[1],
+                                     grid.sub_cells_per_unit, grid.last_sub_cell_y);
+    const Interval z = cells_between(hn::LoadU(d, job.bodies.z + begin + k), reach, grid.origin[2],
+                                     grid.sub_cells_per_unit, grid.last_sub_cell_z);
+    const auto row_y = shifted(y.low, shift);
+    const auto row_z = shifted(z.low, shift);
+    const auto first = hn::Add(hn::Add(x.low, hn::Mul(row_y, hn::Set(du, grid.stride_y))),
+                               hn::Mul(row_z, hn::Set(du, grid.stride_z)));
+    hn::StoreU(first, du, out.first + k);
+    hn::StoreU(hn::Add(hn::Sub(x.high, x.low), hn::Set(du, 1)), du, out.length + k);
+    const auto offsets = hn::Iota(du, k);
+    const auto present = hn::FirstN(du, count - k);
+    const auto next_y = hn::And(present, hn::Gt(shifted(y.high, shift), row_y));
+    const auto next_z = hn::And(present, hn::Gt(shifted(z.high, shift), row_z));
+    out.all.add(offsets, present);
+    out.next_y.add(offsets, next_y);
+    out.next_z.add(offsets, next_z);
+    out.next_both.add(offsets, hn::And(next_y, next_z));
+  }
+}
+
+struct ScalarInterval {
+  std::uint32_t low, high;
+};
+
+HWY_INLINE ScalarInterval cells_between(double at, double reach, double origin, double per_unit,
+                                        double last) {
+  const double low = (at - reach - origin) * per_unit;
+  const double high = (at + reach - origin) * per_unit;
+  return {static_cast<std::uint32_t>(std::min(std::max(low, 0.0), last)),
+          static_cast<std::uint32_t>(std::min(std::max(high, 0.0), last))};
+}
+
+HWY_INLINE void fill_foreign_cells(const SearchJob<double>& job, const Grid<double>& grid,
+                                   std::uint32_t begin, std::uint32_t count, ForeignCells& out) {
+  const std::uint32_t shift = grid.row_shift;
+  for (std::uint32_t k = 0; k < count; ++k) {
+    const double reach = job.bodies.r[begin + k] + grid.max_radius;
+    const auto x = cells_between(job.bodies.x[begin + k], reach, grid.origin[0],
+                                 grid.cells_per_unit_x, grid.last_cell_x);
+    const auto y = cells_between(job.bodies.y[begin + k], reach, grid.origin[1],
+                                 grid.sub_cells_per_unit, grid.last_sub_cell_y);
+    const auto z = cells_between(job.bodies.z[begin + k], reach, grid.origin[2],
+                                 grid.sub_cells_per_unit, grid.last_sub_cell_z);
+    out.first[k] = x.low + grid.stride_y * (y.low >> shift) + grid.stride_z * (z.low >> shift);
+    out.length[k] = x.high - x.low + 1;
+    const bool next_y = (y.high >> shift) > (y.low >> shift);
+    const bool next_z = (z.high >> shift) > (z.low >> shift);
+    out.all.add_if(k, true);
+    out.next_y.add_if(k, next_y);
+    out.next_z.add_if(k, next_z);
+    out.next_both.add_if(k, next_y && next_z);
+  }
+}
+
+/// A block against the bodies of a coarser level.
+template <class Cull>
+HWY_NOINLINE std::uint64_t search_coarser_level(const SearchJob<Cull>& job, const Grid<Cull>& grid,
+                                                std::uint32_t begin, std::uint32_t end,
+                                                Candidates& list, RoomMaker& room) {
+  ForeignCells cells;
+  fill_foreign_cells(job, grid, begin, end - begin, cells);
+  const BlockSearch<Cull> block{job.bodies, begin, list, room};
+  Cursor cursor = cursor_of(list);
+  std::uint64_t tested = 0;
+  const auto rows = [&](const Selection& who, std::uint32_t offset) HWY_ATTR {
+    for (std::uint32_t n = 0; n < who.count; ++n) {
+      const std::uint32_t k = who.offset[n];
+      const std::uint32_t first = (cells.first[k] + offset) & grid.mask;
+      cursor = test_buckets(block, grid, k, first, cells.length[k], cursor, tested);
+    }
+  };
+  rows(cells.all, 0);
+  rows(cells.next_y, grid.stride_y);
+  rows(cells.next_z, grid.stride_z);
+  rows(cells.next_both, grid.stride_y + grid.stride_z);
+  list.count = cursor.count;
+  return tested;
+}
+
+template <class Cull>
+std::uint64_t search(const SearchJob<Cull>& job, std::size_t level, std::uint32_t begin,
+                     std::uint32_t end, Candidates& list, RoomMaker& room) {
+  std::uint64_t tested = search_own_level(job, job.grids[level], begin, end, list, room);
+  for (std::size_t coarser = 0; coarser < level; ++coarser) {
+    tested += search_coarser_level(job, job.grids[coarser], begin, end, list, room);
+  }
+  return tested;
+}
+
+// ---- Contacts -------------------------------------------------------------------------------
+
+template <class Real>
+using Number = simd::SimdReal<Tag<Real>>;
+
+/// One vector of pairs as records, sphere with the lower id first.
+template <class Real>
+struct PairBlock {
+  HWY_ALIGN SphereOf<Real> s1[HWY_MAX_BYTES / sizeof(Real)];
+  HWY_ALIGN SphereOf<Real> s2[HWY_MAX_BYTES / sizeof(Real)];
+  HWY_ALIGN std::uint32_t g1[kMaxLanes];
+  HWY_ALIGN std::uint32_t g2[kMaxLanes];
+};
+
+template <class Real>
+HWY_INLINE void copy_sphere(const SphereOf<Real>& from, SphereOf<Real>& to) {
+  const hn::CappedTag<Real, 4> d;
+  for (std::size_t k = 0; k < 4; k += hn::Lanes(d)) {
+    hn::StoreU(hn::LoadU(d, &from.x + k), d, &to.x + k);
+  }
+}
+
+template <class Real>
+HWY_INLINE void load_pair(const SphereOf<Real>* bodies, const std::uint32_t* ids, std::uint32_t i,
+                          std::uint32_t j, std::size_t lane, PairBlock<Real>& block) {
+  const std::uint32_t a = ids[i];
+  const std::uint32_t b = ids[j];
+  // Ids are in no order that a branch predictor could learn.
+  const std::uint32_t swap = (i ^ j) & (0U - static_cast<std::uint32_t>(a > b));
+  copy_sphere(bodies[i ^ swap], block.s1[lane]);
+  copy_sphere(bodies[j ^ swap], block.s2[lane]);
+  block.g1[lane] = std::min(a, b);
+  block.g2[lane] = std::max(a, b);
+}
+
+template <class Real>
+HWY_INLINE void load_block(const SphereOf<Real>* bodies, const std::uint32_t* ids,
+                           const Candidates& list, std::size_t begin, std::size_t count,
+                           PairBlock<Real>& block) {
+  const std::size_t lanes = hn::Lanes(Tag<Real>());
+  for (std::size_t l = 0; l < count; ++l) {
+    load_pair(bodies, ids, list.i[begin + l], list.j[begin + l], l, block);
+  }
+  for (std::size_t l = count; l < lanes; ++l) {  // pairs that do not touch
+    block.s1[l] = {0, 0, 0, 0};
+    block.s2[l] = {1, 0, 0, 0};
+  }
+}
+
+template <class Real>
+HWY_INLINE simd::SphereArg<Number<Real>> load_spheres(const SphereOf<Real>* spheres) {
+  simd::SphereArg<Number<Real>> s;
+  hn::LoadInterleaved4(Tag<Real>(), &spheres->x, s.p.x.v, s.p.y.v, s.p.z.v, s.r.v);
+  return s;
+}
+
+template <class Real>
+HWY_FLATTEN void keep_hits(const SphereOf<Real>* bodies, const std::uint32_t* ids,
+                           std::size_t begin, Candidates& list) {
+  const Tag<Real> d;
+  const std::size_t lanes = hn::Lanes(d);
+  PairBlock<Real> block;
+  std::size_t kept = begin;
+  for (std::size_t p = begin; p < list.count; p += lanes) {
+    load_block(bodies, ids, list, p, std::min(lanes, list.count - p), block);
+    const auto s1 = load_spheres(block.s1);
+    const auto s2 = load_spheres(block.s2);
+    const auto c = simd::sphere_sphere<Number<Real>>(s1, s2);
+    for (std::uint32_t bits = mask_bits(d, c.hit.m); bits != 0; bits &= bits - 1) {
+      const std::size_t from = p + hwy::Num0BitsBelowLS1Bit_Nonzero32(bits);
+      list.i[kept] = list.i[from];
+      list.j[kept] = list.j[from];
+      ++kept;
+    }
+  }
+  list.count = kept;
+}
+
+/// Contacts of one vector as records, in two halves that interleave four numbers each. The last
+/// number of the second half holds ids: in float g1, in double both.
+///
+///   [ pos.xyz normal.x | normal.yz depth ids ] and in float g2 after them
+template <class Real>
+struct ContactBlock {
+  HWY_ALIGN Real head[4 * (HWY_MAX_BYTES / sizeof(Real))];
+  HWY_ALIGN Real tail[4 * (HWY_MAX_BYTES / sizeof(Real))];
+};
+
+HWY_INLINE Vector<float> id_numbers(const PairBlock<float>& pairs) {
+  return hn::BitCast(Tag<float>(), hn::Load(Tag<std::uint32_t>(), pairs.g1));
+}
+
+HWY_INLINE Vector<double> id_numbers(const PairBlock<double>& pairs) {
+  const Tag<std::uint64_t> du;
+  HWY_ALIGN std::uint64_t both[HWY_MAX_BYTES / sizeof(double)];
+  for (std::size_t l = 0; l < hn::Lanes(du); ++l) {
+    both[l] = pairs.g1[l] | static_cast<std::uint64_t>(pairs.g2[l]) << 32;
+  }
+  return hn::BitCast(Tag<double>(), hn::Load(du, both));
+}
+
+template <class Real>
+HWY_INLINE void store_contact(const PairBlock<Real>& pairs, const ContactBlock<Real>& block,
+                              std::size_t lane, BodyContactOf<Real>* out) {
+  auto* const to = reinterpret_cast<char*>(out);
+  std::memcpy(to, block.head + 4 * lane, 4 * sizeof(Real));
+  std::memcpy(to + 4 * sizeof(Real), block.tail + 4 * lane, 4 * sizeof(Real));
+  if (sizeof(Real) == sizeof(float)) out->g2 = pairs.g2[lane];
+}
+
+template <class Real>
+HWY_FLATTEN std::size_t contacts(const SphereOf<Real>* bodies, const std::uint32_t* ids,
+                                 const Candidates& list, std::size_t begin, std::size_t end,
+                                 BodyContactOf<Real>* out) {
+  const Tag<Real> d;
+  const std::size_t lanes = hn::Lanes(d);
+  const std::uint32_t all = (1U << lanes) - 1;
+  PairBlock<Real> pairs;
+  ContactBlock<Real> block;
+  BodyContactOf<Real>* const first = out;
+  for (std::size_t p = begin; p < end; p += lanes) {
+    load_block(bodies, ids, list, p, std::min(lanes, end - p), pairs);
+    const auto s1 = load_spheres(pairs.s1);
+    const auto s2 = load_spheres(pairs.s2);
+    const auto c = simd::sphere_sphere<Number<Real>>(s1, s2);
+    hn::StoreInterleaved4(c.pos.x.v, c.pos.y.v, c.pos.z.v, c.normal.x.v, d, block.head);
+    hn::StoreInterleaved4(c.normal.y.v, c.normal.z.v, c.depth.v, id_numbers(pairs), d, block.tail);
+    std::uint32_t bits = mask_bits(d, c.hit.m);
+    if (HWY_LIKELY(bits == all)) {
+      for (std::size_t l = 0; l < lanes; ++l) store_contact(pairs, block, l, out++);
+    } else {
+      for (; bits != 0; bits &= bits - 1) {
+        store_contact(pairs, block, hwy::Num0BitsBelowLS1Bit_Nonzero32(bits), out++);
+      }
+    }
+  }
+  return static_cast<std::size_t>(out - first);
+}
+
+template <class Real>
+constexpr Kernels<Real> kKernels = {
+    bounds<Real>,
+    keep_hits<Real>,
+    contacts<Real>,
+    {buckets_float<Real>, cull_arrays_float<Real>, search<float>},
+    {buckets_double<Real>, cull_arrays_double<Real>, search<double>},
+};
+
+const KernelTable* get_kernels() {
+  static constexpr KernelTable kTable = {kKernels<float>, kKernels<double>};
+  return &kTable;
+}
+
+}  // namespace
+}  // namespace harpoon::scene::HWY_NAMESPACE
+HWY_AFTER_NAMESPACE();
+
+#if HWY_ONCE
+namespace harpoon::scene {
+namespace {
+
+HWY_EXPORT(get_kernels);
+
+const KernelTable* kernels_of_target(std::int64_t target) noexcept {
+#if (HWY_TARGETS & (HWY_TARGETS - 1)) == 0
+  return target == HWY_TARGETS ? HWY_DISPATCH_TABLE(get_kernels)[0]() : nullptr;
+#else
+  hwy::ChosenTarget chosen;
+  chosen.Update(target);
+  return HWY_DISPATCH_TABLE(get_kernels)[chosen.GetIndex()]();
+#endif
+}
+
+/// The public name, as of cpu_instruction_sets().
+std::string_view name_of(std::int64_t target) noexcept {
+  if (target == HWY_EMU128 || target == HWY_SCALAR) {
+    return HWY_ARCH_X86 != 0 ? "SSE2" : "baseline";
+  }
+  if (target == HWY_AVX3) return "AVX-512";
+  return hwy::TargetName(target);
+}
+
+}  // namespace
+
+const KernelTable* find_kernels(std::string_view instruction_set) noexcept {
+  for (std::int64_t rest = hwy::SupportedTargets() & HWY_TARGETS; rest != 0; rest &= rest - 1) {
+    const std::int64_t target = rest & -rest;
+    if (instruction_set.empty() || instruction_set == name_of(target)) {
+      return kernels_of_target(target);
+    }
+  }
+  return nullptr;
+}
+
+}  // namespace harpoon::scene
+#endif

@@ -1,0 +1,76 @@
+#pragma once
+
+// Brings bodies into the order of the search: level by level, bucket by bucket, by id within a
+// bucket. The result depends on the set of bodies only.
+
+#include <array>
+#include <cstdint>
+#include <optional>
+#include <span>
+#include <vector>
+
+#include "base/executor.hpp"
+#include "harpoon/error.hpp"
+#include "scene/buffer.hpp"
+#include "scene/kernels.hpp"
+#include "scene/plan.hpp"
+
+namespace harpoon::scene {
+
+/// What an ordering needs and leaves behind. Kept between calls for its memory alone.
+struct OrderMemory {
+  Buffer staged, staged_ids;                  ///< bodies by level
+  Buffer parted, parted_ids, parted_buckets;  ///< bodies by part of a level
+  Buffer buckets, tables, counts;
+  Buffer sorted, ids, cull;
+};
+
+/// Bodies in search order.
+template <class Real, class Cull>
+struct Ordered {
+  std::array<Grid<Cull>, kRadiusClasses> grids;  ///< coarsest level first
+  std::size_t levels = 0;
+  std::size_t bodies = 0;
+  const SphereOf<Real>* spheres = nullptr;
+  const std::uint32_t* ids = nullptr;
+  CullArrays<Cull> cull = {};
+};
+
+/// Threads and instruction set of a call.
+struct Means {
+  Executor* executor;  ///< null: the calling thread
+  const KernelTable* kernels;
+
+  [[nodiscard]] unsigned threads() const noexcept {
+    return executor == nullptr ? 1 : executor->threads();
+  }
+  /// Runs `body` for every task; the caller holds a FloatEnvironment.
+  template <class Body>
+  [[nodiscard]] std::optional<Error> run(std::size_t tasks, const Body& body) const {
+    if (executor != nullptr && tasks > 1) {
+      return executor->run(tasks, [&body](std::size_t task) { body(task); });
+    }
+    for (std::size_t task = 0; task < tasks; ++task) body(task);
+    return std::nullopt;
+  }
+};
+
+/// What one pass over the bodies finds. Invalid ones are appended to `excluded`.
+template <class Real>
+struct Survey {
+  Bounds<Real> bounds;
+  Census census;
+};
+
+/// Throws std::bad_alloc only (from `excluded`).
+template <class Real>
+std::optional<Error> survey(const Means& means, const Source<Real>& source, double margin,
+                            std::vector<std::uint32_t>& excluded, Survey<Real>& out);
+
+/// Orders the valid bodies. `invalid` is their number.
+template <class Real, class Cull>
+std::optional<Error> order(const Means& means, const Source<Real>& source,
+                           const Survey<Real>& survey, const Plan& plan, OrderMemory& memory,
+                           Ordered<Real, Cull>& out);
+
+}  // namespace harpoon::scene

@@ -1,0 +1,282 @@
+// Cost model. A body looks into its own row forward and, with probability 1/s for each axis, into
+// neighbouring rows (s sub-cells make a row): (1 + 1/s)^2 + 1/s^2 windows in all. Wide rows mean
+// few windows but many bodies in each; a window of up to 16 bodies is one vector test. The
+// constants are nanoseconds measured on one machine; only their ratios matter, and only for speed.
+
+#include "scene/plan.hpp"
+
+#include <algorithm>
+#include <cmath>
+#include <limits>
+
+namespace harpoon::scene {
+namespace {
+
+constexpr double kWindowNs = 2.5;  ///< to find a window
+constexpr double kTestNs = 4.0;    ///< to test up to 16 bodies
+constexpr double kBucketNs = 0.6;  ///< to clear, sum and cache a bucket
+constexpr double kBodyNs = 3.0;    ///< to sort a body into a level of its own
+constexpr double kVectorBodies = 16;
+/// A further vector costs more than the first: its branch is mispredicted.
+constexpr double kMoreTests = 1.6;
+/// Buckets that a dense grid may have, and that a folded one has, for each body.
+constexpr double kDenseBuckets = 4;
+constexpr double kFoldedBuckets = 2;
+constexpr double kMinBuckets = 1024;
+/// Width of a sub-cell over the reach of two bodies: room for the rounding of cell numbers up to
+/// kMaxCells in float (docs/scene.md).
+constexpr double kReachScale = 1.0 + 0x1p-7;
+constexpr double kMaxCellsFloat = 0x1p14;
+constexpr double kMaxCellsDouble = 0x1p28;
+/// Largest loss of a double coordinate's resolution in float that culling puts up with, as a part
+/// of the radius.
+constexpr double kMaxRelativePad = 0.02;
+
+/// Vector tests for an average of `bodies` candidates in a window.
+double vector_tests(double bodies) noexcept {
+  return 1 + kMoreTests * bodies * bodies / (kVectorBodies * (bodies + kVectorBodies));
+}
+
+double extent(const Census& census, int axis) noexcept {
+  return census.max[axis] - census.min[axis];
+}
+
+double largest_extent(const Census& census) noexcept {
+  return std::max({extent(census, 0), extent(census, 1), extent(census, 2)});
+}
+
+/// One way to cut a level, and what it costs.
+struct Cut {
+  LevelPlan level;
+  double own_ns = std::numeric_limits<double>::infinity();
+  double foreign_ns = 0;  ///< for each body of a finer level
+};
+
+Cut evaluate(const Census& census, LevelPlan level) noexcept {
+  const double bodies = static_cast<double>(level.bodies);
+  const double s = static_cast<double>(1U << level.row_shift);
+  const double row = s * level.sub_cell;
+  const double k = level.half_window;
+  const double cells_x = extent(census, 0) / level.cell_x + 1;
+  const double rows_y = extent(census, 1) / row + 1;
+  const double rows_z = extent(census, 2) / row + 1;
+  double buckets = (cells_x + k) * (rows_y + 1) * (rows_z + 1);
+  const double window[3] = {(2 * k + 1) * level.cell_x, row, row};
+  double share = 1;  // of the level's bodies in one window
+  for (int axis = 0; axis < 3; ++axis) {
+    share *= std::min(1.0, window[axis] / std::max(census.occupied[axis], level.sub_cell));
+  }
+  double candidates = share * bodies;
+  level.folded = buckets > kDenseBuckets * bodies + kMinBuckets;
+  if (level.folded) {
+    buckets = kFoldedBuckets * bodies + kMinBuckets;
+    candidates += (2 * k + 1) / kFoldedBuckets;
+  }
+  const double rows = (1 + 1 / s) * (1 + 1 / s);
+  const double others = rows + 1 / (s * s) - 1;
+  Cut cut;
+  cut.level = level;
+  cut.own_ns = bodies * (others * (kWindowNs + kTestNs * vector_tests(candidates)) + kBodyNs +
+                         kWindowNs + kTestNs * vector_tests(candidates / 2)) +
+               buckets * kBucketNs;
+  cut.foreign_ns = rows * (1.5 * kWindowNs + kTestNs * vector_tests(candidates));
+  return cut;
+}
+
+/// The best cut of a level of the given bodies.
+Cut best_cut(const Census& census, std::size_t bodies, double cull_radius, bool only) noexcept {
+  const double reach = std::max(2 * cull_radius, largest_extent(census) / kMaxCellsDouble);
+  Cut best;
+  for (const double widening : {1.0, 1.5, 2.0, 3.0}) {
+    for (std::uint32_t shift = only ? 0 : 1; shift <= 2; ++shift) {
+      for (const std::uint32_t half_window : {1U, 2U, 4U}) {
+        LevelPlan level;
+        level.bodies = bodies;
+        level.max_radius = cull_radius;
+        level.sub_cell = reach * kReachScale * widening;
+        level.half_window = half_window;
+        level.cell_x = level.sub_cell / half_window;
+        level.row_shift = shift;
+        const Cut cut = evaluate(census, level);
+        if (cut.own_ns < best.own_ns) best = cut;
+      }
+    }
+  }
+  return best;
+}
+
+CullMap cull_map(const Census& census, bool cull_double) noexcept {
+  CullMap map;
+  const bool real_double = census.real_digits > std::numeric_limits<float>::digits;
+  // Below these distances squares underflow and the collider finds the centres to coincide.
+  map.radius_pad = real_double && cull_double ? 0x1p-520 : 0x1p-60;
+  if (real_double && !cull_double) {
+    std::copy(census.min, census.min + 3, map.origin);
+    map.radius_pad += largest_extent(census) * 0x1p-22;
+  }
+  map.radius_pad += census.margin / 2;
+  return map;
+}
+
+/// Levels of the classes, coarsest first: the partition into runs of classes that costs least.
+class Partition {
+ public:
+  Partition(const Census& census, const CullMap& map) noexcept {
+    for (std::size_t c = 0; c < kRadiusClasses; ++c) {
+      if (census.classes[c].bodies != 0) used_[used_count_++] = c;
+    }
+    std::array<double, kRadiusClasses + 1> cost;
+    cost[0] = 0;
+    std::size_t finer = census.bodies;
+    for (std::size_t last = 0; last < used_count_; ++last) {
+      finer -= census.classes[used_[last]].bodies;
+      cost[last + 1] = std::numeric_limits<double>::infinity();
+      std::size_t bodies = 0;
+      double radius = 0;
+      for (std::size_t first = last + 1; first-- > 0;) {
+        bodies += census.classes[used_[first]].bodies;
+        radius = std::max(radius, census.classes[used_[first]].max_radius);
+        const Cut cut =
+            best_cut(census, bodies, radius * kRadiusScale + map.radius_pad, used_count_ == 1);
+        const double total = cost[first] + cut.own_ns + cut.foreign_ns * static_cast<double>(finer);
+        if (total < cost[last + 1]) {
+          cost[last + 1] = total;
+          first_[last] = first;
+          cut_[last] = cut.level;
+        }
+      }
+    }
+  }
+
+  void write(Plan& plan) const noexcept {
+    std::size_t boundaries[kRadiusClasses];
+    std::size_t count = 0;
+    for (std::size_t end = used_count_; end > 0; end = first_[end - 1]) boundaries[count++] = end;
+    plan.level_count = count;
+    for (std::size_t level = 0; level < count; ++level) {
+      const std::size_t last = boundaries[count - 1 - level] - 1;
+      plan.levels[level] = cut_[last];
+      for (std::size_t u = first_[last]; u <= last; ++u) {
+        plan.level_of_class[used_[u]] = static_cast<std::uint8_t>(level);
+      }
+    }
+  }
+
+ private:
+  std::array<std::size_t, kRadiusClasses> used_ = {};
+  std::size_t used_count_ = 0;
+  std::array<std::size_t, kRadiusClasses> first_ = {};
+  std::array<LevelPlan, kRadiusClasses> cut_;
+};
+
+/// Whether float cannot number the cells of a level safely, or loses too much of the coordinates.
+bool needs_double(const Census& census, const Plan& plan) noexcept {
+  const double size = largest_extent(census);
+  if (census.real_digits > std::numeric_limits<float>::digits) {
+    if (size > 0x1p50 || census.margin > 0x1p50) return true;
+    if (size < 0x1p-30) return true;
+  }
+  for (std::size_t l = 0; l < plan.level_count; ++l) {
+    const LevelPlan& level = plan.levels[l];
+    if (size / level.cell_x > kMaxCellsFloat) return true;
+    if (census.real_digits > std::numeric_limits<float>::digits &&
+        size * 0x1p-22 > kMaxRelativePad * level.max_radius) {
+      return true;
+    }
+  }
+  return false;
+}
+
+std::uint32_t power_of_two_at_least(double value) noexcept {
+  std::uint32_t power = 1;
+  while (power < value && power < 0x80000000U) power *= 2;
+  return power;
+}
+
+/// Distance on the circle of `buckets` numbers.
+std::uint32_t circle_distance(std::uint32_t a, std::uint32_t b, std::uint32_t buckets) noexcept {
+  const std::uint32_t d = (a - b) & (buckets - 1);
+  return std::min(d, buckets - d);
+}
+
+/// Strides with which no two windows of a neighbourhood share a bucket, in a folded table.
+template <class Cull>
+void choose_strides(Grid<Cull>& grid) noexcept {
+  const std::uint32_t buckets = grid.buckets;
+  const std::uint32_t apart = 4 * grid.half_window + 4;
+  // Fractions of the golden ratio and its square spread any box of cells evenly.
+  auto y = static_cast<std::uint32_t>(buckets * 0.6180339887498949) | 1U;
+  auto z = static_cast<std::uint32_t>(buckets * 0.7548776662466927) | 1U;
+  const auto clash = [&] {
+    const std::uint32_t offsets[9] = {0, y, z, z + y, z - y, 0 - y, 0 - z, 0 - z - y, y - z};
+    for (int a = 0; a < 9; ++a) {
+      for (int b = a + 1; b < 9; ++b) {
+        if (circle_distance(offsets[a], offsets[b], buckets) < apart) return true;
+      }
+    }
+    return false;
+  };
+  for (; clash(); y += 2) z += 6;
+  grid.stride_y = y & (buckets - 1);
+  grid.stride_z = z & (buckets - 1);
+}
+
+}  // namespace
+
+bool is_sparse(const Census& census) noexcept {
+  double largest = 0;
+  for (const RadiusClass& c : census.classes) largest = std::max(largest, c.max_radius);
+  const double reach = 2 * largest + census.margin;
+  double cells = 1;
+  for (int axis = 0; axis < 3; ++axis) cells *= extent(census, axis) / (2 * reach) + 1;
+  return !(cells <= 2 * static_cast<double>(census.bodies) + kMinBuckets);
+}
+
+Plan make_plan(const Census& census) noexcept {
+  Plan plan;
+  plan.map = cull_map(census, false);
+  Partition(census, plan.map).write(plan);
+  if (needs_double(census, plan)) {
+    plan.cull_double = true;
+    plan.map = cull_map(census, true);
+    Partition(census, plan.map).write(plan);
+  }
+  return plan;
+}
+
+template <class Cull>
+Grid<Cull> make_grid(const LevelPlan& level, const Cull min[3], const Cull max[3]) noexcept {
+  Grid<Cull> grid;
+  std::copy(min, min + 3, grid.origin);
+  grid.cells_per_unit_x = static_cast<Cull>(1 / level.cell_x);
+  grid.sub_cells_per_unit = static_cast<Cull>(1 / level.sub_cell);
+  grid.max_radius = static_cast<Cull>(level.max_radius * (1 + 0x1p-20));
+  grid.row_shift = level.row_shift;
+  grid.half_window = level.half_window;
+  const auto last = [](Cull top, Cull origin, Cull per_unit) {
+    return std::trunc((top - origin) * per_unit);
+  };
+  grid.last_cell_x = last(max[0], min[0], grid.cells_per_unit_x);
+  grid.last_sub_cell_y = last(max[1], min[1], grid.sub_cells_per_unit);
+  grid.last_sub_cell_z = last(max[2], min[2], grid.sub_cells_per_unit);
+  const double bodies = static_cast<double>(level.bodies);
+  const double line = static_cast<double>(grid.last_cell_x) + 1 + level.half_window;
+  const double rows = 1U << level.row_shift;
+  const double plane = line * (std::floor(static_cast<double>(grid.last_sub_cell_y) / rows) + 2);
+  const double all = plane * (std::floor(static_cast<double>(grid.last_sub_cell_z) / rows) + 2);
+  if (all <= kDenseBuckets * bodies + 2 * kMinBuckets) {
+    grid.stride_y = static_cast<std::uint32_t>(line);
+    grid.stride_z = static_cast<std::uint32_t>(plane);
+    grid.buckets = static_cast<std::uint32_t>(all);
+    return grid;
+  }
+  grid.buckets = power_of_two_at_least(std::max(kFoldedBuckets * bodies, kMinBuckets));
+  grid.mask = grid.buckets - 1;
+  choose_strides(grid);
+  return grid;
+}
+
+template Grid<float> make_grid(const LevelPlan&, const float[3], const float[3]) noexcept;
+template Grid<double> make_grid(const LevelPlan&, const double[3], const double[3]) noexcept;
+
+}  // namespace harpoon::scene

@@ -1,0 +1,196 @@
+#include "scene/search.hpp"
+
+#include <algorithm>
+
+namespace harpoon::scene {
+namespace {
+
+/// Smallest list; also how many candidates may pile up beyond the limit before they are checked.
+constexpr std::size_t kMinList = 4096;
+/// Below this many bodies the search is not shared between threads.
+constexpr std::size_t kParallelBodies = 4096;
+constexpr std::size_t kTasksPerThread = 8;
+
+/// Shared by the tasks of one search.
+struct Common {
+  std::uint64_t limit;
+  std::uint64_t limit_of_list;  ///< a list that grows beyond this is checked first
+  bool exact;
+  std::atomic<std::uint64_t> kept{0};  ///< contacts in lists that had to check theirs
+  std::atomic<bool> over_limit{false};
+  std::atomic<bool> out_of_memory{false};
+};
+
+/// Makes room in the list of one task: filters, then checks what is there against the limit where
+/// it has come that far, then grows.
+template <class Real, class Cull>
+class Collector : public RoomMaker {
+ public:
+  Collector(const Kernels<Real>& kernels, const Ordered<Real, Cull>& bodies,
+            const PairFilter& filter, Common& common, TaskList& task) noexcept
+      : kernels_(kernels), bodies_(bodies), filter_(filter), common_(common), task_(task) {
+    make_room = [](RoomMaker& self, Candidates& list) { static_cast<Collector&>(self).make(list); };
+  }
+
+  [[nodiscard]] bool start() noexcept {
+    task_.list.count = 0;
+    if (task_.list.capacity >= kMinList) return true;
+    return resize(kMinList);
+  }
+
+  void make(Candidates& list) noexcept {
+    drop_filtered(list);
+    if (list.count <= list.capacity / 2) return;
+    if (common_.exact && list.count > common_.limit_of_list) check(list);
+    if (list.count <= list.capacity / 2) return;
+    if (!resize(2 * list.capacity)) {
+      common_.out_of_memory = true;
+      list.count = filtered_ = checked_ = 0;
+    }
+  }
+
+  void drop_filtered(Candidates& list) noexcept {
+    if (!filter_.active()) return;
+    std::size_t kept = filtered_;
+    for (std::size_t p = filtered_; p < list.count; ++p) {
+      const bool counts = filter_.counts(bodies_.ids[list.i[p]], bodies_.ids[list.j[p]]);
+      list.i[kept] = list.i[p];
+      list.j[kept] = list.j[p];
+      kept += counts ? 1 : 0;
+    }
+    list.count = filtered_ = kept;
+  }
+
+  /// Leaves only true contacts in the list, and none at all once the limit is passed.
+  void check(Candidates& list) noexcept {
+    kernels_.keep_hits(bodies_.spheres, bodies_.ids, checked_, list);
+    const std::uint64_t kept = common_.kept += list.count - checked_;
+    checked_ = filtered_ = list.count;
+    if (kept > common_.limit) common_.over_limit = true;
+    if (common_.over_limit) drop(list);
+  }
+
+  void drop(Candidates& list) noexcept {
+    task_.dropped += list.count;
+    list.count = checked_ = filtered_ = 0;
+  }
+
+ private:
+  bool resize(std::size_t capacity) noexcept {
+    Buffer larger;
+    if (!larger.reserve(2 * (capacity + kSlack) * sizeof(std::uint32_t))) return false;
+    auto* const i = larger.as<std::uint32_t>();
+    auto* const j = i + capacity + kSlack;
+    std::copy_n(task_.list.i, task_.list.count, i);
+    std::copy_n(task_.list.j, task_.list.count, j);
+    task_.list.i = i;
+    task_.list.j = j;
+    task_.list.capacity = capacity;
+    task_.memory = std::move(larger);
+    return true;
+  }
+
+  const Kernels<Real>& kernels_;
+  const Ordered<Real, Cull>& bodies_;
+  const PairFilter& filter_;
+  Common& common_;
+  TaskList& task_;
+  std::size_t filtered_ = 0;
+  std::size_t checked_ = 0;
+};
+
+/// Blocks of all levels in one row of numbers.
+template <class Real, class Cull>
+class Blocks {
+ public:
+  explicit Blocks(const Ordered<Real, Cull>& bodies) noexcept : bodies_(bodies) {
+    for (std::size_t l = 0; l < bodies.levels; ++l) {
+      first_[l] = count_;
+      count_ += (bodies.grids[l].end - bodies.grids[l].begin + kBlockBodies - 1) / kBlockBodies;
+    }
+    first_[bodies.levels] = count_;
+  }
+  [[nodiscard]] std::size_t count() const noexcept { return count_; }
+
+  /// Calls visit(level, begin, end) for the blocks [first, last).
+  template <class Visit>
+  void each(std::size_t first, std::size_t last, const Visit& visit) const {
+    std::size_t level = 0;
+    for (std::size_t block = first; block < last; ++block) {
+      while (block >= first_[level + 1]) ++level;
+      const Grid<Cull>& grid = bodies_.grids[level];
+      const auto offset = static_cast<std::uint32_t>((block - first_[level]) * kBlockBodies);
+      const std::uint32_t begin = grid.begin + offset;
+      visit(level, begin, std::min(grid.end, begin + static_cast<std::uint32_t>(kBlockBodies)));
+    }
+  }
+
+ private:
+  const Ordered<Real, Cull>& bodies_;
+  std::array<std::size_t, kRadiusClasses + 1> first_ = {};
+  std::size_t count_ = 0;
+};
+
+}  // namespace
+
+template <class Real, class Cull>
+std::optional<Error> search(const Means& means, const Ordered<Real, Cull>& bodies,
+                            const PairFilter& filter, std::uint64_t limit, bool exact,
+                            SearchMemory& memory) {
+  const Kernels<Real>& kernels = means.kernels->of<Real>();
+  const Blocks<Real, Cull> blocks(bodies);
+  const std::size_t tasks = means.threads() == 1 || bodies.bodies < kParallelBodies
+                                ? 1
+                                : std::min(blocks.count(), kTasksPerThread * means.threads());
+  if (memory.lists.size() < tasks) memory.lists.resize(tasks);
+  memory.used = tasks;
+  Common common{limit, limit / tasks, exact};
+  const SearchJob<Cull> job{bodies.grids.data(), bodies.levels, bodies.cull};
+  const auto kernel = kernels.template cull<Cull>().search;
+  auto error = means.run(tasks, [&](std::size_t t) {
+    TaskList& task = memory.lists[t];
+    task.tests = task.dropped = 0;
+    Collector<Real, Cull> collector(kernels, bodies, filter, common, task);
+    if (!collector.start()) {
+      common.out_of_memory = true;
+      return;
+    }
+    const auto each = [&](std::size_t level, std::uint32_t begin, std::uint32_t end) {
+      if (!common.out_of_memory.load(std::memory_order_relaxed)) {
+        task.tests += kernel(job, level, begin, end, task.list, collector);
+      }
+    };
+    blocks.each(blocks.count() * t / tasks, blocks.count() * (t + 1) / tasks, each);
+    collector.drop_filtered(task.list);
+    if (common.over_limit) collector.check(task.list);
+  });
+  if (error) return error;
+  if (common.out_of_memory) return Error{Errc::out_of_memory, "out of memory"};
+  std::uint64_t kept = 0;
+  for (std::size_t t = 0; t < tasks; ++t) kept += memory.lists[t].list.count;
+  if (!exact || (kept <= limit && !common.over_limit)) return std::nullopt;
+  std::uint64_t total = 0;
+  for (std::size_t t = 0; t < tasks; ++t) {
+    Candidates& list = memory.lists[t].list;
+    kernels.keep_hits(bodies.spheres, bodies.ids, 0, list);
+    total += list.count + memory.lists[t].dropped;
+  }
+  if (total <= limit) return std::nullopt;
+  for (std::size_t t = 0; t < tasks; ++t) {
+    TaskList& task = memory.lists[t];
+    task.dropped += task.list.count;
+    task.list.count = 0;
+  }
+  return std::nullopt;
+}
+
+template std::optional<Error> search(const Means&, const Ordered<float, float>&, const PairFilter&,
+                                     std::uint64_t, bool, SearchMemory&);
+template std::optional<Error> search(const Means&, const Ordered<float, double>&, const PairFilter&,
+                                     std::uint64_t, bool, SearchMemory&);
+template std::optional<Error> search(const Means&, const Ordered<double, float>&, const PairFilter&,
+                                     std::uint64_t, bool, SearchMemory&);
+template std::optional<Error> search(const Means&, const Ordered<double, double>&,
+                                     const PairFilter&, std::uint64_t, bool, SearchMemory&);
+
+}  // namespace harpoon::scene

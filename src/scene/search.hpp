@@ -1,0 +1,62 @@
+#pragma once
+
+// The search over ordered bodies: blocks handed to tasks, candidates collected with bounded memory.
+
+#include <atomic>
+#include <cstdint>
+#include <optional>
+#include <vector>
+
+#include "harpoon/scene.hpp"
+#include "scene/order.hpp"
+
+namespace harpoon::scene {
+
+/// Decides by ids which pairs count.
+class PairFilter {
+ public:
+  explicit PairFilter(const Filters& filters) noexcept : filters_(filters) {}
+  [[nodiscard]] bool active() const noexcept {
+    return !filters_.category.empty() || !filters_.owner.empty() || !filters_.rest.empty();
+  }
+  [[nodiscard]] bool counts(std::uint32_t a, std::uint32_t b) const noexcept {
+    const auto rests = [&](std::uint32_t id) { return filters_.rest[id] != Rest::awake; };
+    if (!filters_.category.empty() && (filters_.category[a] & filters_.collide[b]) == 0 &&
+        (filters_.category[b] & filters_.collide[a]) == 0) {
+      return false;
+    }
+    if (!filters_.owner.empty() && filters_.owner[a] == filters_.owner[b] &&
+        filters_.owner[a] != 0) {
+      return false;
+    }
+    return filters_.rest.empty() || !(rests(a) && rests(b));
+  }
+
+ private:
+  Filters filters_;
+};
+
+/// Candidates of one task and their memory.
+struct TaskList {
+  Buffer memory;
+  Candidates list;
+  std::uint64_t tests = 0;
+  std::uint64_t dropped = 0;  ///< contacts found after the limit was passed
+};
+
+/// What the search leaves behind. When `dropped` is 0 in all lists, the lists hold all candidates,
+/// filtered, in order; some may turn out not to touch.
+struct SearchMemory {
+  std::vector<TaskList> lists;
+  std::size_t used = 0;  ///< lists of the latest search
+};
+
+/// Searches. When more than `limit` contacts exist, they are counted, not kept: then the sum of
+/// `dropped` over all lists is their exact number and all lists are empty. `exact` false keeps
+/// every candidate within the culling distance and counts nothing.
+template <class Real, class Cull>
+std::optional<Error> search(const Means& means, const Ordered<Real, Cull>& bodies,
+                            const PairFilter& filter, std::uint64_t limit, bool exact,
+                            SearchMemory& memory);
+
+}  // namespace harpoon::scene

@@ -1,0 +1,74 @@
+#include "scene/workspace.hpp"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <initializer_list>
+#include <new>
+#include <thread>
+
+namespace harpoon {
+namespace {
+
+constexpr unsigned kMaxThreads = 1024;
+/// Smaller calls stay on the calling thread.
+constexpr std::size_t kParallelBodies = 4096;
+
+}  // namespace
+
+Result<Workspace> Workspace::make(const WorkspaceOptions& options) noexcept {
+  try {
+    if (options.threads > kMaxThreads) {
+      return Error{Errc::invalid_argument, fmt::format("{} threads asked for, the limit is {}",
+                                                       options.threads, kMaxThreads)};
+    }
+    auto state = std::make_unique<State>();
+    state->kernels = scene::find_kernels(options.instruction_set);
+    if (state->kernels == nullptr) {
+      return Error{Errc::invalid_argument,
+                   fmt::format("instruction set \"{}\" is not to be had here; "
+                               "cpu_instruction_sets() lists those that are",
+                               options.instruction_set)};
+    }
+    const unsigned threads =
+        options.threads != 0 ? options.threads : std::max(1U, std::thread::hardware_concurrency());
+    if (threads > 1 || options.parallel_for) {
+      state->executor = std::make_unique<Executor>(threads, options.parallel_for);
+    }
+    return Workspace(std::move(state));
+  } catch (const std::bad_alloc&) {
+    return Error{Errc::out_of_memory, "out of memory"};
+  }
+}
+
+Workspace::Workspace(std::unique_ptr<State> state) noexcept : state_(std::move(state)) {}
+Workspace::Workspace(Workspace&& other) noexcept = default;
+Workspace& Workspace::operator=(Workspace&& other) noexcept = default;
+Workspace::~Workspace() = default;
+
+std::size_t Workspace::bytes() const noexcept {
+  const scene::OrderMemory& o = state_->order;
+  std::size_t sum = 0;
+  const std::initializer_list<const scene::Buffer*> buffers = {&o.staged,
+                                                               &o.staged_ids,
+                                                               &o.parted,
+                                                               &o.parted_ids,
+                                                               &o.parted_buckets,
+                                                               &o.buckets,
+                                                               &o.tables,
+                                                               &o.counts,
+                                                               &o.sorted,
+                                                               &o.ids,
+                                                               &o.cull,
+                                                               &state_->by_id,
+                                                               &state_->by_id_starts};
+  for (const scene::Buffer* buffer : buffers) sum += buffer->bytes();
+  for (const scene::TaskList& list : state_->search.lists) sum += list.memory.bytes();
+  return sum;
+}
+
+scene::Means Workspace::State::means(std::size_t bodies) const noexcept {
+  return {bodies < kParallelBodies ? nullptr : executor.get(), kernels};
+}
+
+}  // namespace harpoon

@@ -1,0 +1,25 @@
+#pragma once
+
+// The state behind harpoon::Workspace.
+
+#include <memory>
+
+#include "base/executor.hpp"
+#include "harpoon/scene.hpp"
+#include "scene/order.hpp"
+#include "scene/search.hpp"
+
+namespace harpoon {
+
+struct Workspace::State {
+  const scene::KernelTable* kernels = nullptr;
+  std::unique_ptr<Executor> executor;  ///< null for one thread
+  scene::OrderMemory order;
+  scene::SearchMemory search;
+  scene::Buffer by_id;  ///< candidates in order of ids
+  scene::Buffer by_id_starts;
+
+  [[nodiscard]] scene::Means means(std::size_t bodies) const noexcept;
+};
+
+}  // namespace harpoon

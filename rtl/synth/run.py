@@ -7,12 +7,14 @@
     run.py --check         only elaborate every top: a few seconds, for the tests
 
 Counts are of hierarchical synthesis: each module is synthesised once, so that ten SCPUs cost the
-time of one, and nothing is optimised across modules. Cells are synthesised flat.
+time of one, and nothing is optimised across modules. Cells are synthesised flat. A top's parts are
+tops themselves: they enter it as black boxes and their counts are added.
 """
 
 import argparse
 import concurrent.futures
 import dataclasses
+import functools
 import os
 import pathlib
 import re
@@ -30,10 +32,12 @@ TIMING_TITLE = "## Timing of the cells"
 
 @dataclasses.dataclass(frozen=True)
 class Top:
-    """What is synthesised: a module, its parameters, and whether it is one of the cells."""
+    """What is synthesised: a module, its parameters, the modules in it that are tops of their own,
+    and whether it is one of the cells."""
 
     module: str
     parameters: tuple[tuple[str, int], ...] = ()
+    parts: tuple[str, ...] = ()
     cell: bool = False
 
     @property
@@ -50,10 +54,10 @@ CELLS = [Top(module, cell=True) for module in (
     "fp32_select")]
 TOPS = CELLS + [
     Top("scpu"), Top("scpu_cull"), Top("sphere_plane"), Top("aabb_overlap"),
-    Top("harpoon_afu", (("NumScpu", 1),)), Top("harpoon_afu", (("NumScpu", 10),))]
+    *(Top("harpoon_afu", (("NumScpu", n),), parts=("scpu", "scpu_cull")) for n in (1, 10))]
 
 
-@dataclasses.dataclass(frozen=True)
+@dataclasses.dataclass(frozen=True, eq=False)
 class Family:
     """An FPGA family: yosys's command, and which of its cells make up each column."""
 
@@ -130,17 +134,29 @@ def cell_counts(report: str, module: str) -> dict[str, int]:
     return total(top)
 
 
+@functools.cache
 def synthesise(top: Top, family: Family) -> dict[str, int]:
-    """The cell counts of a top in the columns of the family."""
+    """All cells of a top, by their type in the family."""
     name = f"{top.slug}_{family.name}"
     report = WORK / f"{name}.stat"
     option = family.flatten if top.cell else family.hierarchical
     script = read_commands(top, [str(file) for file in sources()])
+    script += f"blackbox {' '.join(top.parts)}\n" if top.parts else ""
     script += f"{family.command} {option} -top {top.module}\ntee -q -o {report} stat\n"
     yosys(script, name)
     cells = cell_counts(report.read_text(), top.module)
-    return {column: sum(count for cell, count in cells.items() if re.fullmatch(pattern, cell))
-            for column, pattern in family.columns.items()}
+    for part in top.parts:
+        instances = cells.pop(part, 0)
+        for cell, count in synthesise(Top(part), family).items():
+            cells[cell] = cells.get(cell, 0) + instances * count
+    return cells
+
+
+def columns(top: Top, family: Family) -> list[int]:
+    """The cell counts of a top in the columns of the family."""
+    cells = synthesise(top, family)
+    return [sum(count for cell, count in cells.items() if re.fullmatch(pattern, cell))
+            for pattern in family.columns.values()]
 
 
 def install_yosys_js() -> pathlib.Path | None:
@@ -198,15 +214,19 @@ def table(rows: list[list[str]]) -> str:
 
 
 def count_tables(tops: list[Top], jobs: int) -> str:
+    wholes = [top for top in tops if not top.parts]
+    pairs = [(top, family) for family in FAMILIES for top in wholes]
+    pairs += [(top, family) for family in FAMILIES for top in tops if top.parts]
+    counts: dict[tuple[Top, str], list[int]] = {}
     with concurrent.futures.ThreadPoolExecutor(jobs) as pool:
-        futures = {(top, family.name): pool.submit(synthesise, top, family)
-                   for family in FAMILIES for top in tops}
-        counts = {key: future.result() for key, future in futures.items()}
+        for (top, family), row in zip(pairs, pool.map(columns, *zip(*pairs))):
+            counts[top, family.name] = row
+            print(f"{family.name} {top.name} done", file=sys.stderr, flush=True)
     text = ""
     for family in FAMILIES:
         rows = [["module", *family.columns]]
         for top in tops:
-            rows.append([f"`{top.name}`", *map(str, counts[top, family.name].values())])
+            rows.append([f"`{top.name}`", *map(str, counts[top, family.name])])
         text += f"## {family.name}\n\n`{family.command}`\n\n{table(rows)}\n"
     return text
 

@@ -162,7 +162,8 @@ std::vector<std::string> report_notes(const Experiment& experiment) {
       "collision "
       "is 15.7 % less time.",
       "hMax counts the shells of spheres around the centre one: |i| + |j| + |k| <= hMax.",
-      "Points are medians over rounds, in which all series take turns; low and high are the 10th "
+      "Points are medians over runs, taken in rounds in which all series take turns; low and high "
+      "are the 10th "
       "and "
       "90th percentiles. ODE as Figure 5 executes each collision 10 times in the running world and "
       "adds the average; the clock's own time is taken out."};

@@ -5,17 +5,16 @@
 
 namespace harpoon::bench {
 
-std::uint64_t runs_per_turn(double warm_up_ns) {
-  constexpr double kShortestTurnNs = 50e3;
+TurnShape shape_turn(double warm_up_ns) {
+  constexpr double kShortestSampleNs = 20e3;
   constexpr double kLongRunNs = 3e6;
-  constexpr std::uint64_t kRuns = 10;
-  constexpr std::uint64_t kLongRuns = 3;
-  constexpr std::uint64_t kMostRuns = 100000;
+  constexpr std::uint64_t kSamples = 10;
+  constexpr std::uint64_t kLongSamples = 3;
   if (warm_up_ns > kLongRunNs) {
-    return kLongRuns;
+    return {kLongSamples, 1};
   }
-  const double enough = std::ceil(kShortestTurnNs / std::max(warm_up_ns, 1.0));
-  return std::clamp(static_cast<std::uint64_t>(enough), kRuns, kMostRuns);
+  const double runs = std::ceil(kShortestSampleNs / std::max(warm_up_ns, 1.0));
+  return {kSamples, static_cast<std::uint64_t>(runs)};
 }
 
 }  // namespace harpoon::bench

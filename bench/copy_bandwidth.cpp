@@ -79,14 +79,14 @@ class CopyContestant final : public Contestant {
 
   Result<Turn> take_turn(std::size_t count) override {
     const std::size_t bytes = std::min(count * kBytesPerPair, source_.size());
-    const std::uint64_t runs = runs_per_turn(copies_ns(bytes, 1));
-    return Turn{copies_ns(bytes, runs) / static_cast<double>(runs), runs};
+    return take_samples(copies_ns(bytes, 1).value(),
+                        [&](std::uint64_t runs) { return copies_ns(bytes, runs); });
   }
 
  private:
   static constexpr std::size_t kBytesPerPair = 32;
 
-  double copies_ns(std::size_t bytes, std::uint64_t runs) {
+  Result<double> copies_ns(std::size_t bytes, std::uint64_t runs) {
     const double start = now_ns();
     for (std::uint64_t i = 0; i < runs; ++i) {
       copy_with(method_, source_.first(bytes), target_.first(bytes), label_.threads);

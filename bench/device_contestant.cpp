@@ -32,20 +32,20 @@ class DeviceContestant final : public Contestant {
       return warm_up.error();
     }
     if (warm_up->modelled_ns) {
-      return Turn{*warm_up->modelled_ns, 1};
+      return Turn{{*warm_up->modelled_ns}, 1};
     }
-    return timed_runs(batch, runs_per_turn(warm_up_ns));
+    return take_samples(warm_up_ns, [&](std::uint64_t runs) { return time_runs(batch, runs); });
   }
 
  private:
-  Result<Turn> timed_runs(const Batch& batch, std::uint64_t runs) {
+  Result<double> time_runs(const Batch& batch, std::uint64_t runs) {
     const double start_ns = now_ns();
     for (std::uint64_t i = 0; i < runs; ++i) {
       if (const Result<Outcome> outcome = device_->run(batch); !outcome) {
         return outcome.error();
       }
     }
-    return Turn{(now_ns() - start_ns) / static_cast<double>(runs), runs};
+    return now_ns() - start_ns;
   }
 
   Label label_;

@@ -36,7 +36,8 @@ Result<bool> RoundRobin::round(const Tick& tick, const Interrupted& interrupted)
                                  contestant.label().precision, counts_[i], error.message),
                      error.needed};
       }
-      samples_[c][i].ns.push_back(turn->ns);
+      std::vector<double>& samples = samples_[c][i].ns;
+      samples.insert(samples.end(), turn->samples_ns.begin(), turn->samples_ns.end());
       samples_[c][i].runs += turn->runs;
     }
     if (tick) {

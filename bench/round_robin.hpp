@@ -18,7 +18,7 @@ namespace harpoon::bench {
 /// What one contestant did at one count.
 struct Measurement {
   std::size_t count = 0;   ///< pairs in the batch
-  Summary ns;              ///< of a batch, over turns
+  Summary ns;              ///< of a batch, over the samples of all turns
   std::uint64_t runs = 0;  ///< of the batch, over all turns
 
   [[nodiscard]] double ns_per_pair() const { return ns.median / static_cast<double>(count); }

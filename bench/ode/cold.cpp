@@ -14,12 +14,12 @@ class OdeCold final : public Contestant {
 
   Result<Turn> take_turn(std::size_t count) override {
     const auto pairs = std::span(scene_.pairs).first(count);
-    const std::uint64_t runs = runs_per_turn(runs_ns(pairs, 1));
-    return Turn{runs_ns(pairs, runs) / static_cast<double>(runs), runs};
+    return take_samples(runs_ns(pairs, 1).value(),
+                        [&](std::uint64_t runs) { return runs_ns(pairs, runs); });
   }
 
  private:
-  double runs_ns(std::span<const IndexPair> pairs, std::uint64_t runs) {
+  Result<double> runs_ns(std::span<const IndexPair> pairs, std::uint64_t runs) {
     const double start = now_ns();
     for (std::uint64_t i = 0; i < runs; ++i) {
       collide_all(geoms_, pairs);

@@ -29,20 +29,24 @@ class OdeReplay final : public Contestant {
   [[nodiscard]] const Label& label() const override { return label_; }
 
   Result<Turn> take_turn(std::size_t count) override {
-    const std::uint64_t runs = runs_per_turn(pass_ns(count, 1));
+    return take_samples(pass_ns(count, 1),
+                        [&](std::uint64_t runs) { return runs_ns(count, runs); });
+  }
+
+ private:
+  Result<double> runs_ns(std::size_t count, std::uint64_t runs) {
     if (count <= recording_.frames.front().pair_count) {
       // One step's pairs: the spheres stay where they are, so all runs fit between two readings of
       // the clock.
-      return Turn{pass_ns(count, runs) / static_cast<double>(runs), runs};
+      return pass_ns(count, runs);
     }
     double total_ns = 0;
     for (std::uint64_t run = 0; run < runs; ++run) {
       total_ns += pass_ns(count, 1);
     }
-    return Turn{total_ns / static_cast<double>(runs), runs};
+    return total_ns;
   }
 
- private:
   // All frames until `count` pairs are done, each frame's pairs `repeats` times.
   double pass_ns(std::size_t count, std::uint64_t repeats) {
     double total_ns = 0;

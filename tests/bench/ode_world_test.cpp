@@ -204,10 +204,11 @@ TEST(OdeContestants, TakeTimeForEveryCount) {
   const IndexedScene scene = make_indexed_scene(PairType::real, 50, 400, 1);
   const auto cold = make_ode_cold(scene);
   for (const std::size_t count : {1U, 10U, 400U}) {
-    EXPECT_GT(replay->take_turn(count)->ns, 0);
-    EXPECT_GT(cold->take_turn(count)->ns, 0);
+    EXPECT_GT(summarize(replay->take_turn(count)->samples_ns).min, 0);
+    EXPECT_GT(summarize(cold->take_turn(count)->samples_ns).min, 0);
   }
-  EXPECT_GT(replay->take_turn(1200)->ns, replay->take_turn(100)->ns);
+  EXPECT_GT(summarize(replay->take_turn(1200)->samples_ns).min,
+            summarize(replay->take_turn(100)->samples_ns).min);
   EXPECT_EQ(replay->label().device, kOdeDevice);
 }
 
@@ -250,7 +251,8 @@ TEST(PairsBench, ComparesOdeFigure5AndEachPrecisionAtEachCount) {
   for (const Series& series : outcome->series) {
     ASSERT_EQ(series.points.size(), 2U) << series.label.device;
     EXPECT_EQ(series.points[1].count, 200U);
-    EXPECT_EQ(series.points[1].ns.samples, 2U);
+    const bool is_figure5 = series.label.device == kOdeFigure5Device;
+    EXPECT_EQ(series.points[1].ns.samples, is_figure5 ? 2U : 20U);
     EXPECT_GT(series.points[1].ns.median, 0);
   }
   EXPECT_TRUE(outcome->notes.empty());
@@ -288,7 +290,7 @@ TEST(PairsBench, StopsAtItsTimeLimitAfterThreeRounds) {
   PairsPlan plan = small_plan();
   plan.rounds = 1000;
   plan.time_limit_s = 1e-9;
-  EXPECT_EQ(run_pairs(plan)->series[0].points[0].ns.samples, 3U);
+  EXPECT_EQ(run_pairs(plan)->series[0].points[0].ns.samples, 30U);
 }
 
 TEST(Targets, AreMetAtTheRequiredRatio) {

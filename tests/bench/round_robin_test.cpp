@@ -19,7 +19,7 @@ class Scripted final : public Contestant {
     if (count == fail_at_) {
       return Error{Errc::device_fault, "It broke."};
     }
-    return Turn{2.0 * static_cast<double>(count) + turns_++, 10};
+    return Turn{{2.0 * static_cast<double>(count) + turns_++}, 10};
   }
 
   std::size_t fail_at_ = 0;
@@ -98,11 +98,26 @@ TEST(RoundRobin, StopsWhenInterrupted) {
   EXPECT_EQ(two.log.size(), 3U);
 }
 
-TEST(RunsPerTurn, ShortBatchesRunOftenAndLongOnesThreeTimes) {
-  EXPECT_EQ(runs_per_turn(100), 500U);
-  EXPECT_EQ(runs_per_turn(1e6), 10U);
-  EXPECT_EQ(runs_per_turn(1e8), 3U);
-  EXPECT_GE(runs_per_turn(0), 1000U);
+TEST(TurnShape, ShortRunsAreAveragedAndLongOnesAreFew) {
+  const TurnShape tiny = shape_turn(100);
+  EXPECT_EQ(tiny.samples, 10U);
+  EXPECT_EQ(tiny.runs_per_sample, 200U);
+  EXPECT_EQ(shape_turn(1e6).samples, 10U);
+  EXPECT_EQ(shape_turn(1e6).runs_per_sample, 1U);
+  EXPECT_EQ(shape_turn(1e8).samples, 3U);
+  EXPECT_EQ(shape_turn(0).runs_per_sample, 20000U);
+}
+
+TEST(TurnShape, ASampleIsTheTimeOfOneRun) {
+  const auto turn = take_samples(
+      100, [](std::uint64_t runs) -> Result<double> { return 7.0 * static_cast<double>(runs); });
+  ASSERT_TRUE(turn);
+  EXPECT_EQ(turn->samples_ns, std::vector<double>(10, 7.0));
+  EXPECT_EQ(turn->runs, 2000U);
+  const auto failed = take_samples(100, [](std::uint64_t) -> Result<double> {
+    return Error{Errc::device_fault, "It broke."};
+  });
+  EXPECT_FALSE(failed);
 }
 
 }  // namespace

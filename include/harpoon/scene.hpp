@@ -2,8 +2,8 @@
 
 /// The scene door: bodies in, all contacts out. Spheres, float and double.
 ///
-/// `detect` looks at one frame and remembers nothing. `Scene` (SceneF64) keeps bodies between
-/// frames and is faster when they move little, and free when they do not move at all.
+/// `detect` looks at one frame and remembers nothing. `Scene` (SceneF64) keeps bodies, nearby pairs
+/// and memory between frames: faster when bodies move little, nearly free when none moves.
 ///
 /// Both find exactly the pairs that the collider finds when it is given all pairs (after filters),
 /// and each contact has the bits of `collide` for {body g1, body g2} with g1 < g2. Neither the set
@@ -180,5 +180,71 @@ HARPOON_API Result<DetectReport> count_contacts(Workspace& workspace,
                                                 const Bodies& bodies) noexcept;
 HARPOON_API Result<DetectReport> count_contacts(Workspace& workspace,
                                                 const BodiesF64& bodies) noexcept;
+
+/// How a body of a scene is filtered; see `Filters`.
+struct BodyRules {
+  std::uint32_t category = 1;
+  std::uint32_t collide = 0xFFFFFFFF;
+  std::uint32_t owner = 0;
+  Rest rest = Rest::awake;
+};
+
+/// One frame of a scene.
+template <class Real>
+struct FrameOf {
+  /// In ascending order of (g1, g2). Valid until the scene is next used.
+  std::span<const BodyContactOf<Real>> contacts;
+  /// Ids of invalid bodies, ascending. Valid as long.
+  std::span<const std::uint32_t> excluded;
+  bool changed = true;    ///< false: nothing moved, these are the contacts of the last frame
+  bool searched = false;  ///< true: nearby pairs were searched anew
+};
+
+/// Bodies that persist. Contacts are those of `detect` on the bodies as they are, in order of ids,
+/// whatever happened before. Ids are small: a new body gets the lowest free one.
+///
+/// How it is fast: a search keeps all pairs that are in contact or nearly so; as long as no body
+/// has moved more than half of what "nearly" means since then, only those are looked at. The margin
+/// follows the bodies' speed; bodies that move too far in each frame are searched in every frame.
+///
+/// Not thread-safe: one call at a time. After an error the scene holds its bodies and can be used.
+template <class Real>
+class HARPOON_API SceneOf {
+ public:
+  /// Errors: as `Workspace::make`.
+  static Result<SceneOf> make(const WorkspaceOptions& options = {}) noexcept;
+  SceneOf(SceneOf&& other) noexcept;
+  SceneOf& operator=(SceneOf&& other) noexcept;
+  SceneOf(const SceneOf&) = delete;
+  SceneOf& operator=(const SceneOf&) = delete;
+  ~SceneOf();
+
+  /// Makes the scene's bodies those of the view, ids and filters included: the way to move all of
+  /// them at once. Errors: as `detect`; then the scene is as before, or empty on out_of_memory.
+  std::optional<Error> set_bodies(const BodiesOf<Real>& bodies) noexcept;
+
+  /// Adds a body and returns its id. Errors: out_of_memory, batch_too_large.
+  Result<std::uint32_t> add(const SphereOf<Real>& sphere, const BodyRules& rules = {}) noexcept;
+  /// The others: errors invalid_index (no such body), out_of_memory (set_rules).
+  std::optional<Error> remove(std::uint32_t id) noexcept;
+  std::optional<Error> move(std::uint32_t id, const SphereOf<Real>& sphere) noexcept;
+  std::optional<Error> set_rules(std::uint32_t id, const BodyRules& rules) noexcept;
+
+  /// Bodies in the scene.
+  [[nodiscard]] std::size_t size() const noexcept;
+
+  /// All contacts of the bodies as they are now. Errors: out_of_memory, executor_failed,
+  /// batch_too_large (more than 2^32 - 1 nearby pairs).
+  Result<FrameOf<Real>> detect() noexcept;
+
+  struct State;
+
+ private:
+  explicit SceneOf(std::unique_ptr<State> state) noexcept;
+  std::unique_ptr<State> state_;
+};
+
+using Scene = SceneOf<float>;
+using SceneF64 = SceneOf<double>;
 
 }  // namespace harpoon

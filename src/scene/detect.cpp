@@ -8,6 +8,7 @@
 #include <type_traits>
 
 #include "base/float_environment.hpp"
+#include "scene/check.hpp"
 #include "scene/id_order.hpp"
 #include "scene/workspace.hpp"
 
@@ -28,35 +29,6 @@ class StopWatch {
  private:
   std::chrono::steady_clock::time_point last_ = std::chrono::steady_clock::now();
 };
-
-template <class Element>
-bool fits(std::span<const Element> filter, std::size_t bodies) noexcept {
-  return filter.empty() || filter.size() == bodies;
-}
-
-template <class Real>
-std::optional<Error> check(const BodiesOf<Real>& bodies) {
-  if (bodies.count > kMaxBodies) {
-    return Error{Errc::batch_too_large,
-                 fmt::format("{} bodies, the limit is {}", bodies.count, kMaxBodies)};
-  }
-  if (bodies.count != 0 &&
-      (bodies.x == nullptr || bodies.y == nullptr || bodies.z == nullptr || bodies.r == nullptr)) {
-    return Error{Errc::invalid_argument, "an array of the bodies is null"};
-  }
-  if (bodies.stride_bytes % alignof(Real) != 0) {
-    return Error{Errc::invalid_argument, fmt::format("a stride of {} bytes is not a multiple of {}",
-                                                     bodies.stride_bytes, alignof(Real))};
-  }
-  const Filters& f = bodies.filters;
-  if (!fits(f.category, bodies.count) || !fits(f.collide, bodies.count) ||
-      !fits(f.owner, bodies.count) || !fits(f.rest, bodies.count) ||
-      f.category.size() != f.collide.size()) {
-    return Error{Errc::invalid_argument,
-                 fmt::format("a filter has another length than the {} bodies", bodies.count)};
-  }
-  return std::nullopt;
-}
 
 /// Contacts as the output.
 template <class Real>
@@ -194,7 +166,7 @@ template <class Real, class Sink>
 Result<DetectReport> run(Workspace& workspace, const BodiesOf<Real>& bodies, const Sink& sink,
                          ContactOrder order, bool count_only) noexcept {
   try {
-    if (auto error = check(bodies)) return *std::move(error);
+    if (auto error = scene::check(bodies)) return *std::move(error);
     StopWatch watch;
     const FloatEnvironment environment;
     Workspace::State& state = workspace.state();

@@ -1,6 +1,7 @@
 #include "scene/id_order.hpp"
 
 #include <algorithm>
+#include <limits>
 #include <utility>
 
 namespace harpoon::scene {
@@ -33,6 +34,9 @@ std::optional<Error> order_by_ids(const std::uint32_t* ids, std::size_t bodies,
                                   Candidates& out) noexcept {
   std::size_t count = 0;
   for (const TaskList& task : lists) count += task.list.count;
+  if (count > std::numeric_limits<std::uint32_t>::max()) {
+    return Error{Errc::batch_too_large, "pairs > 2^32-1"};
+  }
   const std::size_t entry_words = sizeof(Entry) / sizeof(std::uint32_t);
   if (!memory.starts.reserve((bodies + 1) * sizeof(std::uint32_t)) ||
       !memory.list.reserve((entry_words + 2) * (count + kSlack) * sizeof(std::uint32_t))) {

@@ -96,6 +96,31 @@ Bounds<Real> bounds(const Source<Real>& source, std::size_t begin, std::size_t e
   return out;
 }
 
+template <class Real>
+Real largest_move(const SphereOf<Real>* from, const SphereOf<Real>* to, std::size_t count) {
+  const Tag<Real> d;
+  const std::size_t lanes = hn::Lanes(d);
+  const auto source_of = [](const SphereOf<Real>* s, std::size_t n) HWY_ATTR {
+    return Source<Real>{&s->x, &s->y, &s->z, &s->r, sizeof *s, n};
+  };
+  const Source<Real> old_source = source_of(from, count);
+  const Source<Real> new_source = source_of(to, count);
+  const auto infinite = hn::Set(d, std::numeric_limits<Real>::infinity());
+  auto largest = hn::Zero(d);
+  for (std::size_t i = 0; i < count; i += lanes) {
+    const std::size_t valid = std::min(lanes, count - i);
+    const Bodies<Real> a = load_bodies(old_source, i, valid);
+    const Bodies<Real> b = load_bodies(new_source, i, valid);
+    const auto x = hn::Sub(b.x, a.x);
+    const auto y = hn::Sub(b.y, a.y);
+    const auto z = hn::Sub(b.z, a.z);
+    const auto squared = hn::MulAdd(x, x, hn::MulAdd(y, y, hn::Mul(z, z)));
+    const auto known = hn::And(hn::Eq(a.r, b.r), hn::Lt(squared, infinite));
+    largest = hn::Max(largest, hn::IfThenElse(known, squared, infinite));
+  }
+  return hn::GetLane(hn::MaxOfLanes(d, largest));
+}
+
 // ---- Cells ----------------------------------------------------------------------------------
 // The arithmetic that follows is part of the order of results: the same operations on every
 // instruction set, no contraction.
@@ -610,8 +635,8 @@ HWY_INLINE void copy_sphere(const SphereOf<Real>& from, SphereOf<Real>& to) {
 template <class Real>
 HWY_INLINE void load_pair(const SphereOf<Real>* bodies, const std::uint32_t* ids, std::uint32_t i,
                           std::uint32_t j, std::size_t lane, PairBlock<Real>& block) {
-  const std::uint32_t a = ids[i];
-  const std::uint32_t b = ids[j];
+  const std::uint32_t a = ids == nullptr ? i : ids[i];
+  const std::uint32_t b = ids == nullptr ? j : ids[j];
   // Ids are in no order that a branch predictor could learn.
   const std::uint32_t swap = (i ^ j) & (0U - static_cast<std::uint32_t>(a > b));
   copy_sphere(bodies[i ^ swap], block.s1[lane]);
@@ -727,6 +752,7 @@ HWY_FLATTEN std::size_t contacts(const SphereOf<Real>* bodies, const std::uint32
 template <class Real>
 constexpr Kernels<Real> kKernels = {
     bounds<Real>,
+    largest_move<Real>,
     keep_hits<Real>,
     contacts<Real>,
     {buckets_float<Real>, cull_arrays_float<Real>, search<float>},

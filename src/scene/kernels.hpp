@@ -81,8 +81,11 @@ struct CullKernels {
 template <class Real>
 struct Kernels {
   Bounds<Real> (*bounds)(const Source<Real>& source, std::size_t begin, std::size_t end);
-  /// Keeps the candidates [begin, list.count) that touch; list.count becomes begin plus their
-  /// number.
+  /// The largest squared distance between a body's places in the two arrays; infinite when a radius
+  /// differs or a number is not finite.
+  Real (*largest_move)(const SphereOf<Real>* from, const SphereOf<Real>* to, std::size_t count);
+  /// `ids` is null where positions are ids, here and below. Keeps the candidates [begin,
+  /// list.count) that touch; list.count becomes begin plus their number.
   void (*keep_hits)(const SphereOf<Real>* bodies, const std::uint32_t* ids, std::size_t begin,
                     Candidates& list);
   /// Contacts of those candidates [begin, end) that touch; returns their number. Writes nothing

@@ -12,8 +12,26 @@
 
 #include "base/float_environment.hpp"
 
+#if defined(__SANITIZE_THREAD__)
+#include <sanitizer/tsan_interface.h>
+#endif
+
 namespace harpoon {
 namespace {
+
+// oneTBB is not instrumented, so the thread sanitizer is told what parallel_for promises: what was
+// before the call comes before every task, and every task before the return.
+#if defined(__SANITIZE_THREAD__)
+void publish(void* point) {
+  __tsan_release(point);
+}
+void observe(void* point) {
+  __tsan_acquire(point);
+}
+#else
+void publish(void* /*point*/) {}
+void observe(void* /*point*/) {}
+#endif
 
 /// Counts what an injected parallel_for really ran.
 class Tally {
@@ -63,15 +81,21 @@ class Executor::Arena {
   explicit Arena(unsigned threads) : arena_(static_cast<int>(threads)) {}
 
   void run(std::size_t tasks, const std::function<void(std::size_t)>& body) {
+    char begin = 0;
+    char end = 0;
+    publish(&begin);
     arena_.execute([&] {
       tbb::parallel_for(
           tbb::blocked_range<std::size_t>(0, tasks, 1),
           [&](const tbb::blocked_range<std::size_t>& range) {
+            observe(&begin);
             const FloatEnvironment environment;
             for (std::size_t task = range.begin(); task != range.end(); ++task) body(task);
+            publish(&end);
           },
           tbb::simple_partitioner());
     });
+    observe(&end);
   }
 
  private:

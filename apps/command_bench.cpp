@@ -11,6 +11,7 @@ void add_bench(CLI::App& root, Context& context) {
   bench->require_subcommand(1);
   bench->footer("Example:\n  harpoon bench pairs --help");
   add_bench_pairs(*bench, context);
+  add_bench_scene(*bench, context);
 }
 
 }  // namespace harpoon::app

@@ -1,0 +1,153 @@
+// `harpoon bench scene`: all contacts of a moving world, Harpoon and other engines side by side.
+
+#include <fmt/format.h>
+
+#include <CLI/CLI.hpp>
+#include <cstdio>
+
+#include "apps/command.hpp"
+#include "apps/exit_code.hpp"
+#include "apps/files.hpp"
+#include "apps/interrupt.hpp"
+#include "apps/options.hpp"
+#include "apps/progress.hpp"
+#include "apps/table.hpp"
+#include "bench/scene/scene_bench.hpp"
+
+namespace harpoon::app {
+namespace {
+
+struct SceneOptions {
+  std::string kind = "gas";
+  std::size_t bodies = 100000;
+  unsigned frames = 12;
+  unsigned threads = 1;
+  std::string precision = "f32";
+  std::vector<std::string> against = {"none"};
+  std::uint64_t seed = 1;
+  std::string json;
+};
+
+std::vector<std::string> peers_of(const std::vector<std::string>& names) {
+  const std::vector<std::string> known = bench::scene_peers();
+  std::vector<std::string> peers;
+  for (const std::string& name : names) {
+    if (name == "none") continue;
+    if (name == "all") return known;
+    if (std::find(known.begin(), known.end(), name) == known.end()) {
+      throw CommandError(ExitCode::usage,
+                         fmt::format("--against: no \"{}\" in this build; there are {}, all, none",
+                                     name, fmt::join(known, ", ")));
+    }
+    peers.push_back(name);
+  }
+  return peers;
+}
+
+std::string describe(const Terminal& terminal, const bench::SceneOutcome& outcome) {
+  std::vector<std::vector<Cell>> rows;
+  for (const bench::SceneRow& row : outcome.rows) {
+    rows.push_back({row.engine, row.precision, fmt::format("{}", row.threads),
+                    fmt::format("{:.3f}", row.ms.median), fmt::format("{:.3f}", row.ms.min),
+                    fmt::format("{:.3f}", row.update_ms), fmt::format("{:.3f}", row.broad_ms),
+                    fmt::format("{:.3f}", row.narrow_ms), fmt::format("{}", row.pairs),
+                    fmt::format("{}", row.contacts),
+                    fmt::format("{:.2f}", static_cast<double>(row.bytes_floor) * 1e-6),
+                    fmt::format("{:.2f}", row.speedup)});
+  }
+  std::string text = format_table(terminal,
+                                  {{"engine"},
+                                   {"precision"},
+                                   {"threads", true},
+                                   {"ms/frame", true},
+                                   {"min", true},
+                                   {"update", true},
+                                   {"broad", true},
+                                   {"narrow", true},
+                                   {"pairs", true},
+                                   {"contacts", true},
+                                   {"floor MB", true},
+                                   {"x harpoon", true}},
+                                  rows);
+  for (const std::string& note : outcome.notes) text += note + "\n";
+  return text;
+}
+
+void measure(const Context& context, const SceneOptions& options) {
+  bench::ScenePlan plan;
+  plan.kind = *bench::parse_world_kind(options.kind);
+  plan.bodies = options.bodies;
+  plan.frames = options.frames;
+  plan.threads = options.threads;
+  plan.f64 = options.precision == "f64";
+  plan.seed = options.seed;
+  plan.against = peers_of(options.against);
+  const bool json_on_stdout = options.json == "-";
+  if (!options.json.empty() && !json_on_stdout) require_writable_file(options.json, "--json");
+  const auto outcome = [&] {
+    Progress progress(context.terminal);
+    const auto share = [&](double done) { progress.show(done, "measuring"); };
+    return value_or_throw(bench::run_scene(plan, share, is_interrupted));
+  }();
+  throw_if_interrupted();
+  fmt::print(json_on_stdout ? stderr : stdout, "{}", describe(context.terminal, outcome));
+  if (!options.json.empty()) {
+    const std::string json =
+        bench::scene_json(plan, outcome, bench::describe_machine(), context.command_line);
+    if (json_on_stdout) {
+      fmt::print("{}", json);
+    } else {
+      write_file(options.json, json);
+      fmt::print("{}\n", options.json);
+    }
+  }
+  if (!outcome.counts_agree) {
+    throw CommandError(ExitCode::failure, "the engines do not agree on the number of contacts");
+  }
+}
+
+}  // namespace
+
+void add_bench_scene(CLI::App& bench, Context& context) {
+  CLI::App* scene =
+      bench.add_subcommand("scene", "All contacts of a moving world, against other engines");
+  auto options = std::make_shared<SceneOptions>();
+  add_choice(*scene, "--kind", options->kind,
+             {"gas", "packed", "polydisperse", "diamond", "clusters"}, "World")
+      ->capture_default_str();
+  scene->add_option("--bodies", options->bodies, "Bodies")
+      ->check(whole_number(1, 100000000))
+      ->type_name("N")
+      ->capture_default_str();
+  scene->add_option("--frames", options->frames, "Measured frames, after three to warm up")
+      ->check(whole_number(1, 100000))
+      ->type_name("N")
+      ->capture_default_str();
+  scene->add_option("--threads", options->threads, "Threads of Harpoon; the others have one")
+      ->check(whole_number(1, 1024))
+      ->type_name("T")
+      ->capture_default_str();
+  add_choice(*scene, "--precision", options->precision, {"f32", "f64"}, "Precision of Harpoon")
+      ->capture_default_str();
+  scene
+      ->add_option("--against", options->against,
+                   "Engines to compare with, separated by commas: ode, bullet, fcl, embree, all")
+      ->delimiter(',')
+      ->type_name("ENGINES")
+      ->default_str("none");
+  scene->add_option("--seed", options->seed, "Seed of the world")
+      ->type_name("N")
+      ->capture_default_str();
+  scene->add_option("--json", options->json, "Write the results as JSON; - for standard output")
+      ->type_name("FILE");
+  scene->footer(
+      "Every body moves by 2 % of its radius per frame. Figures are medians over frames in\n"
+      "milliseconds; the floor is what must be read and written at least.\n\n"
+      "Examples:\n"
+      "  harpoon bench scene --kind packed --against bullet,embree\n"
+      "  harpoon bench scene --bodies 1000000 --threads 2 --json scene.json");
+  scene->callback(
+      [&context, options] { context.run = [&context, options] { measure(context, *options); }; });
+}
+
+}  // namespace harpoon::app

@@ -1,0 +1,53 @@
+#pragma once
+
+// One collision engine in the scene benchmark: given the bodies of a frame, it finds all contacts
+// and says how long its steps took.
+
+#include <cstdint>
+#include <memory>
+#include <span>
+#include <string>
+
+#include "harpoon/error.hpp"
+#include "harpoon/records.hpp"
+
+namespace harpoon::bench {
+
+/// Wall-clock milliseconds and counts of one frame.
+struct EngineFrame {
+  double update_ms = 0;  ///< poses into the engine, its structure brought up to date
+  double broad_ms = 0;   ///< pairs found
+  double narrow_ms = 0;  ///< contacts made
+  std::uint64_t pairs = 0;
+  std::uint64_t contacts = 0;
+
+  [[nodiscard]] double total_ms() const { return update_ms + broad_ms + narrow_ms; }
+};
+
+class SceneEngine {
+ public:
+  virtual ~SceneEngine() = default;
+  [[nodiscard]] virtual std::string name() const = 0;
+  [[nodiscard]] virtual std::string precision() const = 0;  ///< "f32" or "f64"
+  [[nodiscard]] virtual unsigned threads() const = 0;
+  /// `spheres` are always the same bodies, moved.
+  virtual Result<EngineFrame> frame(std::span<const Sphere> spheres) = 0;
+};
+
+/// How Harpoon is called.
+enum class HarpoonMode : std::uint8_t {
+  detect,  ///< stateless, a kept workspace
+  scene,   ///< a persistent scene
+  still,   ///< a persistent scene whose bodies are set again where they are
+};
+std::unique_ptr<SceneEngine> make_harpoon_engine(HarpoonMode mode, bool f64, unsigned threads);
+
+/// The peers; each on one thread. Null where this build has not got it.
+std::unique_ptr<SceneEngine> make_embree_engine(std::span<const Sphere> spheres);
+std::unique_ptr<SceneEngine> make_bullet_engine(std::span<const Sphere> spheres);
+std::unique_ptr<SceneEngine> make_fcl_engine(std::span<const Sphere> spheres);
+/// `space` is hash, sap or quadtree.
+std::unique_ptr<SceneEngine> make_ode_engine(std::span<const Sphere> spheres,
+                                             const std::string& space);
+
+}  // namespace harpoon::bench

@@ -1,0 +1,98 @@
+// Harpoon through its public scene interface.
+
+#include <vector>
+
+#include "bench/scene/engine.hpp"
+#include "bench/timer.hpp"
+#include "harpoon/scene.hpp"
+
+namespace harpoon::bench {
+namespace {
+
+template <class Real>
+class HarpoonEngine final : public SceneEngine {
+ public:
+  HarpoonEngine(HarpoonMode mode, unsigned threads)
+      : mode_(mode),
+        threads_(threads),
+        workspace_(Workspace::make({.threads = threads})),
+        scene_(SceneOf<Real>::make({.threads = threads})) {}
+
+  [[nodiscard]] std::string name() const override {
+    switch (mode_) {
+      case HarpoonMode::detect:
+        return "harpoon";
+      case HarpoonMode::scene:
+        return "harpoon scene";
+      case HarpoonMode::still:
+        break;
+    }
+    return "harpoon scene, still";
+  }
+  [[nodiscard]] std::string precision() const override {
+    return sizeof(Real) == sizeof(float) ? "f32" : "f64";
+  }
+  [[nodiscard]] unsigned threads() const override { return threads_; }
+
+  Result<EngineFrame> frame(std::span<const Sphere> spheres) override {
+    if (!workspace_) return workspace_.error();
+    if (!scene_) return scene_.error();
+    if (mode_ != HarpoonMode::still || spheres_.empty()) {
+      spheres_.clear();
+      for (const Sphere& s : spheres) spheres_.push_back({s.x, s.y, s.z, s.r});
+    }
+    return mode_ == HarpoonMode::detect ? detect_frame() : scene_frame();
+  }
+
+ private:
+  Result<EngineFrame> detect_frame() {
+    const BodiesOf<Real> bodies{std::span<const SphereOf<Real>>(spheres_)};
+    const double begin = now_ns();
+    auto report = detect(*workspace_, bodies, std::span(contacts_));
+    const double end = now_ns();
+    if (!report && report.error().code == Errc::capacity) {
+      contacts_.resize(report.error().needed + report.error().needed / 2);
+      return detect_frame();
+    }
+    if (!report) return report.error();
+    const StageTimes& t = report->times;
+    EngineFrame f;
+    f.broad_ms = t.search_ns * 1e-6;
+    f.narrow_ms = t.contacts_ns * 1e-6;
+    f.update_ms = (end - begin) * 1e-6 - f.broad_ms - f.narrow_ms;
+    f.pairs = report->tests;
+    f.contacts = report->contacts;
+    return f;
+  }
+
+  Result<EngineFrame> scene_frame() {
+    const BodiesOf<Real> bodies{std::span<const SphereOf<Real>>(spheres_)};
+    const double begin = now_ns();
+    if (auto error = scene_->set_bodies(bodies)) return *std::move(error);
+    const double moved = now_ns();
+    const auto frame = scene_->detect();
+    const double end = now_ns();
+    if (!frame) return frame.error();
+    EngineFrame f;
+    f.update_ms = (moved - begin) * 1e-6;
+    f.broad_ms = (end - moved) * 1e-6;
+    f.contacts = f.pairs = frame->contacts.size();
+    return f;
+  }
+
+  HarpoonMode mode_;
+  unsigned threads_;
+  Result<Workspace> workspace_;
+  Result<SceneOf<Real>> scene_;
+  std::vector<SphereOf<Real>> spheres_;
+  std::vector<BodyContactOf<Real>> contacts_;
+};
+
+}  // namespace
+
+std::unique_ptr<SceneEngine> make_harpoon_engine(HarpoonMode mode, bool f64, unsigned threads) {
+  if (f64) return std::make_unique<HarpoonEngine<double>>(mode, threads);
+  return std::make_unique<HarpoonEngine<float>>(mode, threads);
+}
+
+}  // namespace harpoon::bench

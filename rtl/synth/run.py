@@ -8,13 +8,15 @@
 
 Counts are of hierarchical synthesis: each module is synthesised once, so that ten SCPUs cost the
 time of one, and nothing is optimised across modules. Cells are synthesised flat. A top's parts are
-tops themselves: they enter it as black boxes and their counts are added.
+tops themselves: they enter it as black boxes and their counts are added. Results are kept under
+build/synth and used again while the sources are the same, so a run that was cut off goes on.
 """
 
 import argparse
 import concurrent.futures
 import dataclasses
 import functools
+import hashlib
 import os
 import pathlib
 import re
@@ -97,6 +99,24 @@ def read_commands(top: Top, files: list[str]) -> str:
     return f"read_verilog -sv {' '.join(files)}\nhierarchy -check -top {top.module}{parameters}\n"
 
 
+def key_of(script: str) -> str:
+    """Changes with the script and with any source."""
+    digest = hashlib.sha256(script.encode())
+    for file in sources():
+        digest.update(file.read_bytes())
+    return digest.hexdigest()
+
+
+def kept(name: str, script: str) -> bool:
+    """Is the result of this script, over these sources, still there?"""
+    key = WORK / f"{name}.key"
+    return key.exists() and key.read_text() == key_of(script)
+
+
+def keep(name: str, script: str) -> None:
+    (WORK / f"{name}.key").write_text(key_of(script))
+
+
 def yosys(script: str, name: str) -> None:
     """Runs stock yosys; its messages stay in the work folder, and are shown when it fails."""
     path = WORK / f"{name}.ys"
@@ -143,7 +163,9 @@ def synthesise(top: Top, family: Family) -> dict[str, int]:
     script = read_commands(top, [str(file) for file in sources()])
     script += f"blackbox {' '.join(top.parts)}\n" if top.parts else ""
     script += f"{family.command} {option} -top {top.module}\ntee -q -o {report} stat\n"
-    yosys(script, name)
+    if not kept(name, script):
+        yosys(script, name)
+        keep(name, script)
     cells = cell_counts(report.read_text(), top.module)
     for part in top.parts:
         instances = cells.pop(part, 0)
@@ -178,15 +200,17 @@ def logic_delay_ps(top: Top, packages: pathlib.Path) -> int:
     files = [str(file) for file in sources()]
     script = WORK / f"{top.slug}_sta.ys"
     report = f"{top.slug}_sta.rpt"
-    (WORK / report).unlink(missing_ok=True)
-    script.write_text(
-        read_commands(top, [pathlib.Path(file).name for file in files]) +
-        f"synth_xilinx -family xc7 -top {top.module} -abc9 -flatten\n"
-        "delete =CARRY4\nread_verilog -lib -specify +/xilinx/cells_sim.v\n"
-        f"tee -q -o {report} sta\n")
-    tool = pathlib.Path(__file__).with_name("yosys.mjs")
-    subprocess.run(["node", str(tool), str(packages), str(script), str(WORK), *files], check=True,
-                   stderr=subprocess.DEVNULL)
+    text = (read_commands(top, [pathlib.Path(file).name for file in files]) +
+            f"synth_xilinx -family xc7 -top {top.module} -abc9 -flatten\n"
+            "delete =CARRY4\nread_verilog -lib -specify +/xilinx/cells_sim.v\n"
+            f"tee -q -o {report} sta\n")
+    if not kept(report, text):
+        (WORK / report).unlink(missing_ok=True)
+        script.write_text(text)
+        tool = pathlib.Path(__file__).with_name("yosys.mjs")
+        command = ["node", str(tool), str(packages), str(script), str(WORK), *files]
+        subprocess.run(command, check=True, stderr=subprocess.DEVNULL)
+        keep(report, text)
     match = re.search(r"Latest arrival time in '\S+' is (\d+)", (WORK / report).read_text())
     if not match:
         raise RuntimeError(f"{top.name}: no arrival time in {WORK / report}")

@@ -1,0 +1,163 @@
+// Every allocation of a call fails once: a typed error, and the next call is right again.
+
+#include <gtest/gtest.h>
+
+#include <cstdlib>
+#include <new>
+
+#include "harpoon/scene.hpp"
+#include "scene/brute_force.hpp"
+#include "scene/worlds.hpp"
+
+namespace {
+
+/// Allocations until one fails; below 0 for never. One thread only.
+thread_local long allocations_left = -1;
+
+bool fails() {
+  if (allocations_left < 0) return false;
+  return allocations_left-- == 0;
+}
+
+void* allocate(std::size_t bytes, std::size_t alignment) {
+  if (fails()) return nullptr;
+  if (alignment <= alignof(std::max_align_t)) return std::malloc(bytes == 0 ? 1 : bytes);
+  return std::aligned_alloc(alignment, (bytes + alignment - 1) / alignment * alignment);
+}
+
+void* allocate_or_throw(std::size_t bytes, std::size_t alignment) {
+  void* const memory = allocate(bytes, alignment);
+  if (memory == nullptr) throw std::bad_alloc();
+  return memory;
+}
+
+}  // namespace
+
+void* operator new(std::size_t n) {
+  return allocate_or_throw(n, 1);
+}
+void* operator new[](std::size_t n) {
+  return allocate_or_throw(n, 1);
+}
+void* operator new(std::size_t n, const std::nothrow_t&) noexcept {
+  return allocate(n, 1);
+}
+void* operator new[](std::size_t n, const std::nothrow_t&) noexcept {
+  return allocate(n, 1);
+}
+void* operator new(std::size_t n, std::align_val_t a) {
+  return allocate_or_throw(n, static_cast<std::size_t>(a));
+}
+void* operator new(std::size_t n, std::align_val_t a, const std::nothrow_t&) noexcept {
+  return allocate(n, static_cast<std::size_t>(a));
+}
+void operator delete(void* p) noexcept {
+  std::free(p);
+}
+void operator delete[](void* p) noexcept {
+  std::free(p);
+}
+void operator delete(void* p, std::size_t) noexcept {
+  std::free(p);
+}
+void operator delete[](void* p, std::size_t) noexcept {
+  std::free(p);
+}
+void operator delete(void* p, const std::nothrow_t&) noexcept {
+  std::free(p);
+}
+void operator delete[](void* p, const std::nothrow_t&) noexcept {
+  std::free(p);
+}
+void operator delete(void* p, std::align_val_t) noexcept {
+  std::free(p);
+}
+void operator delete(void* p, std::size_t, std::align_val_t) noexcept {
+  std::free(p);
+}
+void operator delete(void* p, std::align_val_t, const std::nothrow_t&) noexcept {
+  std::free(p);
+}
+
+namespace harpoon::testing {
+namespace {
+
+std::vector<Sphere> some_world() {
+  auto spheres = WorldMaker<float>(5).make(World::mixed, 1500);
+  spheres[7].x = std::numeric_limits<float>::quiet_NaN();
+  return spheres;
+}
+
+/// Calls attempt() with its n-th allocation failing, for every n until none fails. attempt returns
+/// the error, if any.
+template <class Attempt>
+int fail_everywhere(const Attempt& attempt) {
+  for (int n = 0;; ++n) {
+    allocations_left = n;
+    const std::optional<Errc> error = attempt();
+    const bool failed = allocations_left < 0;
+    allocations_left = -1;
+    if (!failed) {
+      EXPECT_FALSE(error.has_value());
+      return n;
+    }
+    EXPECT_EQ(error, Errc::out_of_memory) << "allocation " << n;
+    if (error != Errc::out_of_memory) return n;
+  }
+}
+
+template <class T>
+std::optional<Errc> code_of(const Result<T>& result) {
+  return result ? std::nullopt : std::optional(result.error().code);
+}
+
+TEST(OutOfMemory, EveryAllocationOfDetect) {
+  const auto spheres = some_world();
+  const auto expected = brute_force<float>(spheres);
+  std::vector<BodyContact> out(expected.size());
+  const Bodies bodies{std::span<const Sphere>(spheres)};
+  for (const ContactOrder order : {ContactOrder::space, ContactOrder::ids}) {
+    const int allocations = fail_everywhere(
+        [&] { return code_of(detect(bodies, std::span(out), order, {.threads = 1})); });
+    EXPECT_GT(allocations, 8);
+    EXPECT_TRUE(same_bits(sorted_by_ids(out), expected));
+  }
+}
+
+TEST(OutOfMemory, AWorkspaceSurvives) {
+  const auto spheres = some_world();
+  const auto expected = brute_force<float>(spheres);
+  std::vector<BodyContact> out(expected.size());
+  const Bodies bodies{std::span<const Sphere>(spheres)};
+  auto workspace = Workspace::make({.threads = 1});
+  ASSERT_TRUE(workspace.ok());
+  fail_everywhere([&] { return code_of(detect(*workspace, bodies, std::span(out))); });
+  ASSERT_TRUE(detect(*workspace, bodies, std::span(out)).ok());
+  EXPECT_TRUE(same_bits(sorted_by_ids(out), expected));
+}
+
+TEST(OutOfMemory, AScenePersists) {
+  const auto spheres = some_world();
+  const auto expected = brute_force<float>(spheres);
+  auto scene = Scene::make({.threads = 1});
+  ASSERT_TRUE(scene.ok());
+  for (const Sphere& s : spheres) {
+    fail_everywhere([&] { return code_of(scene->add(s)); });
+  }
+  fail_everywhere([&] { return code_of(scene->detect()); });
+  const auto frame = scene->detect();
+  ASSERT_TRUE(frame.ok());
+  EXPECT_TRUE(same_bits({frame->contacts.begin(), frame->contacts.end()}, expected));
+  const int allocations = fail_everywhere([&]() -> std::optional<Errc> {
+    auto fresh = Scene::make({.threads = 1});
+    if (!fresh) return fresh.error().code;
+    if (auto error = fresh->set_bodies(Bodies{std::span<const Sphere>(spheres)})) {
+      return error->code;
+    }
+    return code_of(fresh->detect());
+  });
+  EXPECT_GT(allocations, 10);
+}
+
+}  // namespace
+}  // namespace harpoon::testing

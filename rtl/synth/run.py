@@ -33,13 +33,20 @@ TIMING_TITLE = "## Timing of the cells"
 
 
 @dataclasses.dataclass(frozen=True)
+class Part:
+    """A module that enters another as a black box: each instance costs `copies` of `top`."""
+
+    top: "Top"
+    copies: int = 1
+
+
+@dataclasses.dataclass(frozen=True)
 class Top:
-    """What is synthesised: a module, its parameters, the modules in it that are tops of their own,
-    and whether it is one of the cells."""
+    """What is synthesised: a module, its parameters, its parts, and whether it is a cell."""
 
     module: str
     parameters: tuple[tuple[str, int], ...] = ()
-    parts: tuple[str, ...] = ()
+    parts: tuple[Part, ...] = ()
     cell: bool = False
 
     @property
@@ -54,9 +61,20 @@ class Top:
 CELLS = [Top(module, cell=True) for module in (
     "fp32_add", "fp32_mul", "fp32_recip", "fp32_sqrt", "fp32_sqrt_greater", "fp32_compare",
     "fp32_select")]
-TOPS = CELLS + [
-    Top("scpu"), Top("scpu_cull"), Top("sphere_plane"), Top("aabb_overlap"),
-    *(Top("harpoon_afu", (("NumScpu", n),), parts=("scpu", "scpu_cull")) for n in (1, 10))]
+SCPU = Top("scpu")
+SCPU_CULL = Top("scpu_cull")
+SPHERE_TABLE = Top("sphere_table", (("Ports", 1),))
+
+
+def afu(scpus: int) -> Top:
+    """The AFU. An FPGA's RAM has one read port, so a table with two ports an SCPU is that many
+    copies; stock yosys runs out of memory when it must find that out for twenty."""
+    parts = (Part(SCPU), Part(SCPU_CULL), Part(SPHERE_TABLE, copies=2 * scpus))
+    return Top("harpoon_afu", (("NumScpu", scpus),), parts)
+
+
+TOPS = CELLS + [SCPU, SCPU_CULL, Top("sphere_plane"), Top("aabb_overlap"), SPHERE_TABLE,
+                afu(1), afu(10)]
 
 
 @dataclasses.dataclass(frozen=True, eq=False)
@@ -135,6 +153,11 @@ def elaborate(top: Top) -> None:
     yosys(read_commands(top, files) + "proc\ncheck -assert\n", f"check_{top.slug}")
 
 
+def base_name(cell: str) -> str:
+    """The module of a cell whose type is yosys's name for a module with parameters."""
+    return cell.split("\\")[1] if cell.startswith("$paramod") else cell
+
+
 def cell_counts(report: str, module: str) -> dict[str, int]:
     """Cells of `module` and all below it, from yosys's `stat`."""
     modules: dict[str, dict[str, int]] = {}
@@ -161,16 +184,19 @@ def synthesise(top: Top, family: Family) -> dict[str, int]:
     report = WORK / f"{name}.stat"
     option = family.flatten if top.cell else family.hierarchical
     script = read_commands(top, [str(file) for file in sources()])
-    script += f"blackbox {' '.join(top.parts)}\n" if top.parts else ""
+    boxes = " ".join(f"*{part.top.module}*" if part.top.parameters else part.top.module
+                     for part in top.parts)
+    script += f"blackbox {boxes}\n" if boxes else ""
     script += f"{family.command} {option} -top {top.module}\ntee -q -o {report} stat\n"
     if not kept(name, script):
         yosys(script, name)
         keep(name, script)
     cells = cell_counts(report.read_text(), top.module)
     for part in top.parts:
-        instances = cells.pop(part, 0)
-        for cell, count in synthesise(Top(part), family).items():
-            cells[cell] = cells.get(cell, 0) + instances * count
+        boxes = [cell for cell in cells if base_name(cell) == part.top.module]
+        instances = sum(cells.pop(box) for box in boxes)
+        for cell, count in synthesise(part.top, family).items():
+            cells[cell] = cells.get(cell, 0) + instances * part.copies * count
     return cells
 
 

@@ -24,4 +24,7 @@ module credits #(
     if (!rst_ni) left_q <= W'(Count);
     else         left_q <= left_q - W'(take_i) + W'(give_i);
   end
+`ifdef FORMAL
+  `include "credits.svh"
+`endif
 endmodule

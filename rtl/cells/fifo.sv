@@ -49,4 +49,7 @@ module fifo #(
     if (push) mem_q[write_q[PTR-1:0]] <= data_i;
     if (pop) out_q <= mem_q[read_q[PTR-1:0]];
   end
+`ifdef FORMAL
+  `include "fifo.svh"
+`endif
 endmodule

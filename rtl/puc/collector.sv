@@ -5,16 +5,18 @@
 // handed on exactly once. With `barrier_i` only `batch_lines_i` lines of Src are requested at a
 // time; the next batch waits until all of them were consumed and `drained_i` says that their
 // results have been dispatched: the published behaviour. `done_o`: all lines were consumed.
-module collector (
+module collector #(
+  parameter int unsigned CountWidth = 32
+) (
   input  logic         clk_i,
   input  logic         rst_ni,
   input  logic         start_i,
   input  logic [57:0]  table_line_i,
-  input  logic [31:0]  table_lines_i,
+  input  logic [CountWidth-1:0] table_lines_i,
   input  logic [57:0]  source_line_i,
-  input  logic [31:0]  source_lines_i,
+  input  logic [CountWidth-1:0] source_lines_i,
   input  logic         barrier_i,
-  input  logic [31:0]  batch_lines_i,
+  input  logic [CountWidth-1:0] batch_lines_i,
   input  logic         drained_i,
 
   output logic         read_valid_o,
@@ -32,7 +34,7 @@ module collector (
   output logic         done_o
 );
   logic [57:0] next_q;
-  logic [31:0] table_ask_q, source_ask_q, table_get_q, source_get_q, batch_left_q;
+  logic [CountWidth-1:0] table_ask_q, source_ask_q, table_get_q, source_get_q, batch_left_q;
   logic        asked, got_source, batch_open;
 
   // asked but not yet requested; got but not yet consumed
@@ -65,19 +67,22 @@ module collector (
       next_q       <= (table_lines_i != '0) ? table_line_i : source_line_i;
     end else begin
       if (asked) begin
-        next_q <= (table_ask_q == 32'd1) ? source_line_i : next_q + 58'd1;
+        next_q <= (table_ask_q == CountWidth'(1)) ? source_line_i : next_q + 58'd1;
         if (table_ask_q != '0) begin
-          table_ask_q <= table_ask_q - 32'd1;
+          table_ask_q <= table_ask_q - CountWidth'(1);
         end else begin
-          source_ask_q <= source_ask_q - 32'd1;
-          batch_left_q <= batch_left_q - 32'd1;
+          source_ask_q <= source_ask_q - CountWidth'(1);
+          batch_left_q <= batch_left_q - CountWidth'(1);
         end
       end else if (barrier_i & (batch_left_q == '0) & (source_ask_q == source_get_q)
                    & drained_i) begin
         batch_left_q <= batch_lines_i;
       end
-      if (table_valid_o) table_get_q <= table_get_q - 32'd1;
-      if (got_source) source_get_q <= source_get_q - 32'd1;
+      if (table_valid_o) table_get_q <= table_get_q - CountWidth'(1);
+      if (got_source) source_get_q <= source_get_q - CountWidth'(1);
     end
   end
+`ifdef FORMAL
+  `include "collector.svh"
+`endif
 endmodule

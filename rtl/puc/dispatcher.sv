@@ -104,4 +104,7 @@ module dispatcher (
              : held_q  ? {first, held_data_q} : {record[1], record[0]};
     end
   end
+`ifdef FORMAL
+  `include "dispatcher.svh"
+`endif
 endmodule

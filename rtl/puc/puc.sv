@@ -158,11 +158,11 @@ module puc #(
     if (!cold_rst_ni || ((state_q == Judge) & forget_q & ~go_q)) begin
       loaded_q        <= '0;
       table_loading_q <= 1'b0;
+    end else if (!rst_ni) begin
+      table_loading_q <= 1'b0;
     end else if (start_q & indexed & load_table_q) begin
       loaded_q        <= '0;
       table_loading_q <= 1'b1;
-    end else if (!rst_ni) begin
-      table_loading_q <= 1'b0;
     end else if (table_loading_q & (source_valid | collector_done)) begin
       loaded_q        <= sphere_count_q;
       table_loading_q <= 1'b0;
@@ -461,4 +461,7 @@ module puc #(
   assign idle_o  = (state_q == Idle) | (state_q == Done);
   assign error_o = error_q;
   assign state_o = state_q;
+`ifdef FORMAL
+  `include "puc.svh"
+`endif
 endmodule

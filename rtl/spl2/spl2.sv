@@ -371,4 +371,7 @@ module spl2 #(
       if (reset_req_i) report_pending_q <= 1'b0;
     end
   end
+`ifdef FORMAL
+  `include "spl2.svh"
+`endif
 endmodule

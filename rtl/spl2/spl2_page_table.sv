@@ -61,4 +61,7 @@ module spl2_page_table #(
   assign read_line_o  = read_physical_q ? read_line_q : {read_entry_q[42:0], read_line_q[14:0]};
   assign write_ok_o   = write_physical_q | (write_inside_q & write_entry_q[43]);
   assign write_line_o = write_physical_q ? write_line_q : {write_entry_q[42:0], write_line_q[14:0]};
+`ifdef FORMAL
+  `include "spl2_page_table.svh"
+`endif
 endmodule

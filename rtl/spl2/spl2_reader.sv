@@ -148,4 +148,7 @@ module spl2_reader #(
     if (expected) mem_q[axi_rid_i] <= axi_rdata_i;
     if (pop) out_q <= mem_q[head_q[ID-1:0]];
   end
+`ifdef FORMAL
+  `include "spl2_reader.svh"
+`endif
 endmodule

@@ -127,4 +127,7 @@ module spl2_writer #(
       asked_q[next_q] <= look_line_q;
     end
   end
+`ifdef FORMAL
+  `include "spl2_writer.svh"
+`endif
 endmodule

@@ -17,9 +17,11 @@ module fp32_mul (
     $error("fp32_mul: the scheduler's table has another latency");
   end
 
-  // Stage 1: classify; put the operand that may be subnormal first and count its leading zeros.
+  // Stage 1: classify; put the operand that may be subnormal first. Leading zeros are counted of
+  // both, beside the finding of which it is.
   logic        a_normal, b_normal, a_nan, b_nan, a_inf, b_inf, a_zero, b_zero;
   logic [23:0] first, second;
+  logic [4:0]  a_zeros, b_zeros;
   always_comb begin
     a_normal = |a_i[30:23];
     b_normal = |b_i[30:23];
@@ -30,6 +32,8 @@ module fp32_mul (
     a_zero   = ~a_normal & ~(|a_i[22:0]);
     b_zero   = ~b_normal & ~(|b_i[22:0]);
     first    = a_normal ? {b_normal, b_i[22:0]} : {1'b0, a_i[22:0]};
+    a_zeros  = fp32_pkg::leading_zeros31({1'b0, a_i[22:0], 7'h40});
+    b_zeros  = fp32_pkg::leading_zeros31({1'b0, b_i[22:0], 7'h40});
     second   = a_normal ? {1'b1, a_i[22:0]} : {b_normal, b_i[22:0]};
   end
   logic [3:0]  s1_class_q;  // sign, NaN, infinity, zero; likewise below
@@ -41,7 +45,7 @@ module fp32_mul (
                     a_inf | b_inf, a_zero | b_zero};
     s1_exp_q    <= {1'b0, a_i[30:24], a_i[23] | ~a_normal}
                  + {1'b0, b_i[30:24], b_i[23] | ~b_normal};
-    s1_zeros_q  <= fp32_pkg::leading_zeros31({first, 7'h40});
+    s1_zeros_q  <= ~a_normal ? a_zeros : ~b_normal ? b_zeros : 5'd0;
     s1_first_q  <= first;
     s1_second_q <= second;
   end

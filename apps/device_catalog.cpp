@@ -5,6 +5,7 @@
 #include <algorithm>
 #include <thread>
 
+#include "apps/afu_entry.hpp"
 #include "apps/exit_code.hpp"
 
 namespace harpoon::app {
@@ -39,6 +40,7 @@ std::vector<CatalogEntry> device_catalog() {
       entries.push_back({std::move(info), [name](unsigned) { return open_device(name); }, false});
     }
   }
+  entries.push_back(afu_entry());
   return entries;
 }
 

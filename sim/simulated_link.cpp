@@ -104,8 +104,13 @@ void SimulatedLink::State::hold_reset() {
 
 SimulatedLink::SimulatedLink(std::unique_ptr<State> state) : state_(std::move(state)) {}
 
+// Verilator's model destructor unregisters itself from the thread's current context, whichever that
+// is: it must be this model's, and afterwards one that lives on.
 SimulatedLink::~SimulatedLink() {
   state_->top.final();
+  Verilated::threadContextp(&state_->context);
+  state_.reset();
+  Verilated::threadContextp(Verilated::defaultContextp());
 }
 
 Result<std::unique_ptr<SimulatedLink>> SimulatedLink::create(const SimulationOptions& options) {

@@ -41,6 +41,19 @@ TEST(SimulatedLink, TheSameSeedGivesTheSameCycles) {
   EXPECT_NE(cycles[0], cycles[2]);
 }
 
+// A program may hold several at once and let them go in any order.
+TEST(SimulatedLink, SeveralEndInAnyOrder) {
+  for (const bool first_goes_first : {true, false}) {
+    auto first = afu_test::take(SimulatedLink::create({profile("harp")}));
+    auto second = afu_test::take(SimulatedLink::create({profile("f2")}));
+    auto& goes = first_goes_first ? first : second;
+    auto& stays = first_goes_first ? second : first;
+    goes.reset();
+    stays->advance(10);
+    stays.reset();
+  }
+}
+
 TEST(SimulatedLink, WritesAWaveform) {
   const std::string path = testing::TempDir() + "harpoon_waveform.vcd";
   {

@@ -98,7 +98,7 @@ TEST(Completion, BashOffersCommandsOptionsChoicesAndFiles) {
   const ScratchFolder folder;
   write_file(folder / "harpoon.bash", bash_completion(declared.info));
   write_file(folder / "data.json", "");
-  EXPECT_EQ(offered(folder, "harpoon de"), "demo devices\n");
+  EXPECT_EQ(offered(folder, "harpoon de"), "demo detect devices\n");
   EXPECT_EQ(offered(folder, "harpoon bench pa"), "pairs\n");
   EXPECT_EQ(offered(folder, "harpoon bench pairs --fo"), "--format\n");
   EXPECT_EQ(offered(folder, "harpoon bench pairs --type g"), "grazing\n");
@@ -116,6 +116,9 @@ TEST(Completion, EveryShellsScriptNamesEveryOptionAndParses) {
   for (const auto& [shell, script] : scripts) {
     for (const CommandInfo* command : flattened(declared.info)) {
       for (const OptionInfo& option : command->options) {
+        if (option.is_positional && option.choices.empty()) {
+          continue;  // a file name of the user's
+        }
         std::string name = option.is_positional ? option.choices.back() : option.names.back();
         name = name.substr(name.find_first_not_of('-'));
         EXPECT_NE(script.find(name), std::string::npos) << shell << " " << name;

@@ -1,0 +1,143 @@
+// `harpoon detect FILE`: all contacts among a user's own bodies.
+
+#include <fmt/format.h>
+#include <fmt/ostream.h>
+
+#include <CLI/CLI.hpp>
+#include <cstdio>
+#include <iostream>
+
+#include "apps/command.hpp"
+#include "apps/detect/bodies_file.hpp"
+#include "apps/exit_code.hpp"
+#include "apps/files.hpp"
+#include "apps/options.hpp"
+#include "apps/progress.hpp"
+
+namespace harpoon::app {
+namespace {
+
+struct DetectOptions {
+  std::string file;
+  std::string format = "csv";
+  std::string output = "-";
+  std::string order = "ids";
+  unsigned threads = 0;
+};
+
+bool ends_with_json(const std::string& file) {
+  return file.size() >= 5 && file.compare(file.size() - 5, 5, ".json") == 0;
+}
+
+FileBodies read_bodies(const Context& context, const std::string& file) {
+  const std::string text = read_file(file);
+  Progress progress(context.terminal);
+  BodiesOrError read =
+      ends_with_json(file)
+          ? read_bodies_json(text)
+          : read_bodies_csv(text, [&](double part) { progress.show(part, "reading"); });
+  if (const auto* error = std::get_if<TextError>(&read)) {
+    throw CommandError(ExitCode::environment, fmt::format("{}:{}:{}: {}", file, error->line,
+                                                          error->column, error->reason));
+  }
+  return std::get<FileBodies>(std::move(read));
+}
+
+struct Found {
+  std::vector<BodyContactF64> contacts;
+  std::vector<std::uint32_t> excluded;
+};
+
+Found find_contacts(const FileBodies& bodies, const DetectOptions& options) {
+  Workspace workspace = value_or_throw(Workspace::make({.threads = options.threads}));
+  BodiesF64 view{std::span<const SphereF64>(bodies.spheres)};
+  view.filters.category = bodies.group;
+  view.filters.collide = bodies.mask;
+  const ContactOrder order = options.order == "ids" ? ContactOrder::ids : ContactOrder::space;
+  Found found;
+  found.contacts.resize(4 * bodies.spheres.size());
+  auto report = detect(workspace, view, std::span(found.contacts), order);
+  if (!report && report.error().code == Errc::capacity) {
+    found.contacts.resize(report.error().needed);
+    report = detect(workspace, view, std::span(found.contacts), order);
+  }
+  const DetectReport done = value_or_throw(std::move(report));
+  found.contacts.resize(done.contacts);
+  found.excluded = done.excluded;
+  return found;
+}
+
+void write_csv(const Found& found, std::ostream& out) {
+  fmt::print(out, "g1,g2,pos_x,pos_y,pos_z,normal_x,normal_y,normal_z,depth\n");
+  for (const BodyContactF64& c : found.contacts) {
+    fmt::print(out, "{},{},{},{},{},{},{},{},{}\n", c.g1, c.g2, c.pos[0], c.pos[1], c.pos[2],
+               c.normal[0], c.normal[1], c.normal[2], c.depth);
+  }
+}
+
+void write_json(const Found& found, std::ostream& out) {
+  fmt::print(out, "{{\"excluded\": [{}],\n \"contacts\": [", fmt::join(found.excluded, ", "));
+  const char* separator = "\n";
+  for (const BodyContactF64& c : found.contacts) {
+    fmt::print(out,
+               "{}  {{\"g1\": {}, \"g2\": {}, \"pos\": [{}, {}, {}], \"normal\": [{}, {}, {}], "
+               "\"depth\": {}}}",
+               separator, c.g1, c.g2, c.pos[0], c.pos[1], c.pos[2], c.normal[0], c.normal[1],
+               c.normal[2], c.depth);
+    separator = ",\n";
+  }
+  fmt::print(out, "\n]}}\n");
+}
+
+void run(const Context& context, const DetectOptions& options) {
+  if (options.output != "-") require_writable_file(options.output, "--output");
+  const FileBodies bodies = read_bodies(context, options.file);
+  const Found found = find_contacts(bodies, options);
+  const auto write = [&](std::ostream& out) {
+    options.format == "json" ? write_json(found, out) : write_csv(found, out);
+  };
+  if (options.output == "-") {
+    write(std::cout);
+    std::cout.flush();
+  } else {
+    write_file(options.output, write);
+  }
+  fmt::print(stderr, "{} bodies, {} contacts\n", bodies.spheres.size(), found.contacts.size());
+  for (const std::uint32_t id : found.excluded) {
+    fmt::print(stderr, "body {} is left out: not finite, too large or of negative radius\n", id);
+  }
+}
+
+}  // namespace
+
+void add_detect(CLI::App& root, Context& context) {
+  CLI::App* detect = root.add_subcommand("detect", "All contacts among the bodies of a file");
+  auto options = std::make_shared<DetectOptions>();
+  detect
+      ->add_option("file", options->file,
+                   "Bodies: .json, otherwise CSV with header x,y,z,r[,group,mask]")
+      ->required()
+      ->type_name("FILE");
+  add_choice(*detect, "--format", options->format, {"csv", "json"}, "Format of the contacts")
+      ->capture_default_str();
+  detect->add_option("--output", options->output, "Where they go; - for standard output")
+      ->type_name("FILE")
+      ->capture_default_str();
+  add_choice(*detect, "--order", options->order, {"ids", "space"}, "Order of the contacts")
+      ->capture_default_str();
+  detect->add_option("--threads", options->threads, "Most threads; 0 for all")
+      ->check(whole_number(0, 1024))
+      ->type_name("T")
+      ->capture_default_str();
+  detect->footer(
+      "Bodies are numbered from 0 in the order of the file; numbers are read and written in "
+      "double\n"
+      "precision. Two bodies count when (group1 & mask2) or (group2 & mask1) is not 0.\n\n"
+      "Examples:\n"
+      "  harpoon detect spheres.csv\n"
+      "  harpoon detect spheres.json --format json --output contacts.json");
+  detect->callback(
+      [&context, options] { context.run = [&context, options] { run(context, *options); }; });
+}
+
+}  // namespace harpoon::app

@@ -33,7 +33,7 @@ PROOFS = {
     "spl2": (["formal/spl2_stubs.svh", "spl2/spl2.sv"], {"MaxInFlight": 4, "MaxPages": 4}, 2, 15),
     "puc": (["formal/puc_stubs.svh", "puc/puc.sv"], {}, 3, 20),
 }
-TIMEOUT_S = 120
+TIMEOUT_S = 300
 
 
 def model(name: str, sources: list[pathlib.Path], folder: pathlib.Path,

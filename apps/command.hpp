@@ -8,7 +8,7 @@
 
 #include "apps/terminal.hpp"
 
-namespace CLI {
+namespace CLI {  // NOLINT(readability-identifier-naming): it is the name CLI11 chose
 class App;
 }
 

@@ -30,8 +30,10 @@ struct Series {
 };
 
 /// A modelled contestant is deterministic and slow to simulate: it takes part in the first round
-/// only, and of a sweep it does only every kModelledStride-th count and the last.
+/// only, of a sweep it does only every kModelledStride-th count and the last, and it does no batch
+/// of more than kMostModelledPairs.
 inline constexpr std::size_t kModelledStride = 10;
+inline constexpr std::size_t kMostModelledPairs = 100000;
 
 class RoundRobin {
  public:

@@ -81,6 +81,16 @@ TEST(RoundRobin, AModelledContestantRunsOnceAndOnFewCounts) {
   EXPECT_EQ(series[1].points[0].ns.samples, 1U);
 }
 
+TEST(RoundRobin, AModelledContestantIsSparedTheLargestBatches) {
+  Two two(true);
+  RoundRobin robin(two.contestants, {10, kMostModelledPairs, kMostModelledPairs + 1});
+  ASSERT_TRUE(robin.round({}, {}));
+  const std::vector<Series> series = robin.series();
+  EXPECT_EQ(series[0].points.size(), 3U);
+  ASSERT_EQ(series[1].points.size(), 1U);
+  EXPECT_EQ(series[1].points[0].count, 10U);
+}
+
 TEST(RoundRobin, AnErrorNamesTheContestantAndTheCount) {
   Two two;
   dynamic_cast<Scripted&>(*two.contestants[1]).fail_at_ = 7;

@@ -15,7 +15,11 @@ namespace harpoon::testing {
 namespace {
 
 constexpr std::uint64_t kSeed = 20240611;
+#if defined(__SANITIZE_ADDRESS__) || defined(__SANITIZE_THREAD__)
+constexpr int kScenesOfWorld = 8;  // unoptimised kernels are slow; the release run has them all
+#else
 constexpr int kScenesOfWorld = 130;  // x 8 worlds x 2 precisions > 2,000
+#endif
 
 Workspace workspace(unsigned threads, const std::string& instruction_set = {}) {
   auto made = Workspace::make({.threads = threads, .instruction_set = instruction_set});

@@ -34,17 +34,18 @@ double last_ns(const bench::Series& series) {
   return series.points.back().ns_per_pair();
 }
 
-// The four series that the claims are about; none of the claims can be judged without them.
+// The series that the claims are about; none of the claims can be judged without the first four.
 struct Evidence {
   const bench::Series& ode;
   const bench::Series& ode_figure5;
   const bench::Series& f32;
   const bench::Series& f64;
+  const bench::Series* afu;  ///< null where there is no AFU
 };
 
 Claim judge_linearity(const Evidence& figure7) {
   constexpr double kStraight = 0.98;
-  const double ode = r_squared(figure7.ode_figure5);
+  const double ode = r_squared(figure7.ode);
   const double f32 = r_squared(figure7.f32);
   return {"The time grows linearly with the number of collisions (Figures 6 and 7).",
           fmt::format("From 1000 to 90000 a straight line explains {:.2f} % of ODE's variation and "
@@ -65,9 +66,15 @@ Claim judge_ode(const Evidence& figure7) {
 
 Claim judge_accelerator(const Evidence& figure7) {
   const double f32 = last_ns(figure7.f32);
-  return {fmt::format("The AFU with 10 SCPUs takes {} ns for a real collision.", kPaperAfuNs),
-          fmt::format("One thread of the cpu device takes {:.2f} ns in f32 and {:.2f} ns in f64.",
-                      f32, last_ns(figure7.f64)),
+  std::string ours = fmt::format(
+      "One thread of the cpu device takes {:.2f} ns in f32 and {:.2f} ns "
+      "in f64.",
+      f32, last_ns(figure7.f64));
+  if (figure7.afu != nullptr) {
+    ours += fmt::format(" Our AFU takes {:.1f} ns{}.", last_ns(*figure7.afu),
+                        figure7.afu->label.modelled ? " (modelled)" : "");
+  }
+  return {fmt::format("The AFU with 10 SCPUs takes {} ns for a real collision.", kPaperAfuNs), ours,
           fmt::format("{:.0f} times less, without an FPGA", kPaperAfuNs / f32)};
 }
 
@@ -136,7 +143,7 @@ std::vector<Claim> judge_claims(const Experiment& experiment) {
     if (ode == nullptr || ode5 == nullptr || f32 == nullptr || f64 == nullptr) {
       return std::nullopt;
     }
-    return Evidence{*ode, *ode5, *f32, *f64};
+    return Evidence{*ode, *ode5, *f32, *f64, find_series(figure.series, "afu", "f32")};
   };
   std::vector<Claim> claims;
   const auto figure6 = evidence_of(experiment.figure6);

@@ -47,7 +47,7 @@ bench::PairsPlan table_plan(const ExperimentPlan& plan) {
     pairs.counts = {10, kQuickPairs};
   }
   pairs.rounds = plan.quick ? 1 : 15;
-  pairs.time_limit_s = 12;
+  pairs.time_limit_s = 10;
   pairs.figure5 = true;
   pairs.devices = plan.table_devices;
   return pairs;
@@ -90,9 +90,9 @@ Experiment run_experiment(const ExperimentPlan& plan, const bench::ShareDone& sh
                           const bench::Interrupted& interrupted) {
   Experiment experiment;
   experiment.figure6 =
-      measure(figure_plan(plan, figure6_counts(), 10), kFigure6Part, share_done, interrupted);
+      measure(figure_plan(plan, figure6_counts(), 8), kFigure6Part, share_done, interrupted);
   experiment.figure7 =
-      measure(figure_plan(plan, figure7_counts(), 20), kFigure7Part, share_done, interrupted);
+      measure(figure_plan(plan, figure7_counts(), 16), kFigure7Part, share_done, interrupted);
   experiment.table = measure(table_plan(plan), kTablePart, share_done, interrupted);
   if (!bench::must_stop(interrupted)) {
     experiment.checks = check_contacts(plan, interrupted);

@@ -14,16 +14,13 @@ harpoon_report_template_end:
   .popsection
 )");
 
-extern "C" {
-extern const char harpoon_report_template[];
-extern const char harpoon_report_template_end[];
-}
+extern const char kTemplateBegin[] asm("harpoon_report_template");
+extern const char kTemplateEnd[] asm("harpoon_report_template_end");
 
 namespace harpoon::app {
 
 std::string_view report_template() {
-  return {harpoon_report_template,
-          static_cast<std::size_t>(harpoon_report_template_end - harpoon_report_template)};
+  return {kTemplateBegin, static_cast<std::size_t>(kTemplateEnd - kTemplateBegin)};
 }
 
 }  // namespace harpoon::app

@@ -106,6 +106,16 @@ TEST(Claims, VerdictsFollowFromTheNumbers) {
   EXPECT_NE(claims[5].ours.find("0 of 1000"), std::string::npos);
 }
 
+TEST(Claims, NameOurAfuAndThatItIsModelled) {
+  Experiment experiment = example();
+  EXPECT_EQ(judge_claims(experiment)[2].ours.find("Our AFU"), std::string::npos);
+  bench::Series afu = series("afu", "f32", 0, 8, {1000, 90000});
+  afu.label.modelled = true;
+  experiment.figure7.series.push_back(afu);
+  EXPECT_NE(judge_claims(experiment)[2].ours.find("Our AFU takes 8.0 ns (modelled)."),
+            std::string::npos);
+}
+
 TEST(Claims, AreNotWonByDefault) {
   Experiment slow = example();
   for (bench::PairsOutcome* figure : {&slow.figure6, &slow.figure7}) {

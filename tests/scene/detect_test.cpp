@@ -78,7 +78,8 @@ TYPED_TEST(DetectTest, EqualsBruteForceInEveryWorld) {
     }
   }
   for (const World world : kWorlds) {
-    EXPECT_GT(contacts[world], 1000U) << "world " << static_cast<int>(world) << " is vacuous";
+    EXPECT_GT(contacts[world], 8U * kScenesOfWorld)
+        << "world " << static_cast<int>(world) << " is vacuous";
   }
 }
 

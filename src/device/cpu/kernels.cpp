@@ -139,7 +139,7 @@ template <class Real>
 std::size_t pairs_streamed(const SpherePairOf<Real>* pairs, std::size_t count,
                            ContactOf<Real>* contacts) {
   constexpr std::size_t kLine = 64;
-  constexpr std::size_t kBlock = 8 * kMaxLanes;
+  constexpr std::size_t kBlock = 4 * kMaxLanes;
   constexpr std::size_t kBlockBytes = kBlock * sizeof(ContactOf<Real>);
   constexpr std::size_t kHead = kLine / sizeof(ContactOf<Real>);
   if (count < kHead + kBlock) return pairs_cached(pairs, count, contacts);

@@ -17,9 +17,22 @@ namespace {
 constexpr std::uint64_t kSeed = 20240611;
 #if defined(__SANITIZE_ADDRESS__) || defined(__SANITIZE_THREAD__)
 constexpr int kScenesOfWorld = 8;  // unoptimised kernels are slow; the release run has them all
+constexpr std::ptrdiff_t kInstructionSets = 1;
+constexpr std::array kThreadCounts = {2U, 8U};
+constexpr std::array kLargeWorlds = {World::packed, World::clusters};
 #else
 constexpr int kScenesOfWorld = 130;  // x 8 worlds x 2 precisions > 2,000
+constexpr std::ptrdiff_t kInstructionSets = 100;
+constexpr std::array kThreadCounts = {1U, 2U, 3U, 8U};
+constexpr std::array kLargeWorlds = kWorlds;
 #endif
+
+/// Those to run on: the widest of them.
+std::vector<std::string> instruction_sets() {
+  std::vector<std::string> all = cpu_instruction_sets();
+  if (std::ssize(all) > kInstructionSets) all.erase(all.begin(), all.end() - kInstructionSets);
+  return all;
+}
 
 Workspace workspace(unsigned threads, const std::string& instruction_set = {}) {
   auto made = Workspace::make({.threads = threads, .instruction_set = instruction_set});
@@ -57,7 +70,7 @@ int bodies_of_scene(Dice& dice) {
 TYPED_TEST(DetectTest, EqualsBruteForceInEveryWorld) {
   using Real = TypeParam;
   std::vector<Workspace> workspaces;
-  for (const std::string& name : cpu_instruction_sets()) {
+  for (const std::string& name : instruction_sets()) {
     workspaces.push_back(workspace(1, name));
   }
   std::map<World, std::uint64_t> contacts;
@@ -95,8 +108,8 @@ TYPED_TEST(DetectTest, OneHashForThreadsInstructionSetsAndViews) {
     const auto expected = run(first, records, counted->contacts);
     ASSERT_EQ(expected.size(), counted->contacts);
     EXPECT_FALSE(expected.empty());
-    for (const unsigned threads : {1U, 2U, 3U, 8U}) {
-      for (const std::string& name : cpu_instruction_sets()) {
+    for (const unsigned threads : kThreadCounts) {
+      for (const std::string& name : instruction_sets()) {
         Workspace means = workspace(threads, name);
         EXPECT_TRUE(same_bits(run(means, records, counted->contacts + 5), expected))
             << "world " << static_cast<int>(world) << " threads " << threads << " " << name;
@@ -223,7 +236,7 @@ TYPED_TEST(DetectTest, AcceptsTheLimitItself) {
 
 TYPED_TEST(DetectTest, TooSmallAnOutputIsUntouchedAndTheNeedExact) {
   using Real = TypeParam;
-  for (const World world : kWorlds) {
+  for (const World world : kLargeWorlds) {
     const auto spheres =
         WorldMaker<Real>(kSeed + 3).make(world, 6000 / (1 + (world == World::point) * 5));
     const BodiesOf<Real> bodies(view(spheres));

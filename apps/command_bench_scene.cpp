@@ -113,7 +113,7 @@ void add_bench_scene(CLI::App& bench, Context& context) {
       bench.add_subcommand("scene", "All contacts of a moving world, against other engines");
   auto options = std::make_shared<SceneOptions>();
   add_choice(*scene, "--kind", options->kind,
-             {"gas", "packed", "polydisperse", "diamond", "clusters"}, "World")
+             {"gas", "packed", "polydisperse", "bed", "diamond", "clusters"}, "World")
       ->capture_default_str();
   scene->add_option("--bodies", options->bodies, "Bodies")
       ->check(whole_number(1, 100000000))

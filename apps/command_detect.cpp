@@ -32,10 +32,9 @@ bool ends_with_json(const std::string& file) {
 FileBodies read_bodies(const Context& context, const std::string& file) {
   const std::string text = read_file(file);
   Progress progress(context.terminal);
+  const ReadProgress share = [&](double part) { progress.show(part, "reading"); };
   BodiesOrError read =
-      ends_with_json(file)
-          ? read_bodies_json(text)
-          : read_bodies_csv(text, [&](double part) { progress.show(part, "reading"); });
+      ends_with_json(file) ? read_bodies_json(text, share) : read_bodies_csv(text, share);
   if (const auto* error = std::get_if<TextError>(&read)) {
     throw CommandError(ExitCode::environment, fmt::format("{}:{}:{}: {}", file, error->line,
                                                           error->column, error->reason));

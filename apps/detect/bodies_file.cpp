@@ -18,6 +18,22 @@ constexpr std::size_t kMask = 5;
 /// Bytes between two calls of the progress.
 constexpr std::size_t kProgressBytes = std::size_t{1} << 20;
 
+/// Tells how far a text of `bytes` has been read, not too often.
+class Pace {
+ public:
+  Pace(const ReadProgress& progress, std::size_t bytes) : progress_(progress), bytes_(bytes) {}
+  void at(std::size_t position) {
+    if (!progress_ || position < next_) return;
+    progress_(static_cast<double>(position) / static_cast<double>(bytes_));
+    next_ = position + kProgressBytes;
+  }
+
+ private:
+  const ReadProgress& progress_;
+  std::size_t bytes_;
+  std::size_t next_ = kProgressBytes;
+};
+
 /// One body, field by field.
 struct Values {
   std::array<double, kNumbers> numbers = {};
@@ -53,13 +69,10 @@ class CsvReader {
   explicit CsvReader(std::string_view text) : text_(text) {}
 
   BodiesOrError read(const ReadProgress& progress) {
-    std::size_t next_progress = kProgressBytes;
+    Pace pace(progress, text_.size());
     while (next_line()) {
       if (!(columns_.empty() ? read_header() : read_body())) return error_;
-      if (progress && position_ >= next_progress) {
-        progress(static_cast<double>(position_) / static_cast<double>(text_.size()));
-        next_progress = position_ + kProgressBytes;
-      }
+      pace.at(std::min(position_, text_.size()));
     }
     if (columns_.empty()) {
       return TextError{1, 1, "there is no header; the first line must name x,y,z,r"};
@@ -159,7 +172,8 @@ class CsvReader {
 /// Builds bodies while the JSON text is parsed, so that an error has a place in the text.
 class JsonHandler final : public nlohmann::json_sax<nlohmann::json> {
  public:
-  explicit JsonHandler(std::string_view text) : text_(text) {}
+  JsonHandler(std::string_view text, const ReadProgress& progress)
+      : text_(text), pace_(progress, text.size()) {}
 
   bool null() override { return refuse("null"); }
   bool boolean(bool) override { return refuse("true or false"); }
@@ -210,6 +224,7 @@ class JsonHandler final : public nlohmann::json_sax<nlohmann::json> {
     in_body_ = false;
     ruled_ = ruled_ || seen_[kGroup] || seen_[kMask];
     all_.push_back(values_);
+    pace_.at(position());
     return true;
   }
   bool start_array(std::size_t) override {
@@ -252,8 +267,11 @@ class JsonHandler final : public nlohmann::json_sax<nlohmann::json> {
     e.reason = std::move(reason);
     return e;
   }
+  [[nodiscard]] std::size_t position() const {
+    return cursor == nullptr ? 0 : static_cast<std::size_t>(*cursor - text_.data());
+  }
   bool fail(std::string reason) {
-    const auto offset = cursor == nullptr ? 0 : static_cast<std::size_t>(*cursor - text_.data());
+    const std::size_t offset = position();
     error_ = at(offset == 0 ? 0 : offset - 1, std::move(reason));
     return false;
   }
@@ -273,6 +291,7 @@ class JsonHandler final : public nlohmann::json_sax<nlohmann::json> {
   }
 
   std::string_view text_;
+  Pace pace_;
   std::optional<TextError> error_;
   std::vector<Values> all_;
   Values values_;
@@ -316,8 +335,8 @@ BodiesOrError read_bodies_csv(std::string_view text, const ReadProgress& progres
   return CsvReader(text).read(progress);
 }
 
-BodiesOrError read_bodies_json(std::string_view text) {
-  JsonHandler handler(text);
+BodiesOrError read_bodies_json(std::string_view text, const ReadProgress& progress) {
+  JsonHandler handler(text, progress);
   const char* seen = text.data();
   handler.cursor = &seen;
   const CountingIterator begin(text.data(), &seen);

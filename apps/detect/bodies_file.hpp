@@ -36,6 +36,6 @@ BodiesOrError read_bodies_csv(std::string_view text, const ReadProgress& progres
 
 /// JSON: an array of objects {"x": .., "y": .., "z": .., "r": .., "group": .., "mask": ..}, or an
 /// object with such an array as "bodies".
-BodiesOrError read_bodies_json(std::string_view text);
+BodiesOrError read_bodies_json(std::string_view text, const ReadProgress& progress = {});
 
 }  // namespace harpoon::app

@@ -30,6 +30,8 @@ class SceneEngine {
   [[nodiscard]] virtual std::string name() const = 0;
   [[nodiscard]] virtual std::string precision() const = 0;  ///< "f32" or "f64"
   [[nodiscard]] virtual unsigned threads() const = 0;
+  /// False where `contacts` says something else than how many spheres touch now.
+  [[nodiscard]] virtual bool counts_contacts() const { return true; }
   /// `spheres` are always the same bodies, moved.
   virtual Result<EngineFrame> frame(std::span<const Sphere> spheres) = 0;
 };
@@ -39,6 +41,7 @@ enum class HarpoonMode : std::uint8_t {
   detect,  ///< stateless, a kept workspace
   scene,   ///< a persistent scene
   still,   ///< a persistent scene whose bodies are set again where they are
+  bounds,  ///< overlapping pairs of the spheres' bounds
 };
 std::unique_ptr<SceneEngine> make_harpoon_engine(HarpoonMode mode, bool f64, unsigned threads);
 

@@ -47,7 +47,8 @@ void add_peer(const std::string& name, std::span<const Sphere> spheres, Engines&
 Engines make_engines(const ScenePlan& plan, std::span<const Sphere> spheres,
                      std::vector<std::string>& notes) {
   Engines engines;
-  for (const HarpoonMode mode : {HarpoonMode::detect, HarpoonMode::scene, HarpoonMode::still}) {
+  for (const HarpoonMode mode :
+       {HarpoonMode::detect, HarpoonMode::scene, HarpoonMode::still, HarpoonMode::bounds}) {
     engines.push_back(make_harpoon_engine(mode, plan.f64, plan.threads));
   }
   for (const std::string& name : plan.against) add_peer(name, spheres, engines, notes);
@@ -123,8 +124,7 @@ Result<SceneOutcome> run_scene(const ScenePlan& plan, const std::function<void(d
       if (!done) return done.error();
       records[e].last = *done;
       if (frame >= kWarmFrames) records[e].add(*done);
-      const bool still = e == static_cast<std::size_t>(HarpoonMode::still);
-      if (!still && done->contacts != records[0].last.contacts) {
+      if (engines[e]->counts_contacts() && done->contacts != records[0].last.contacts) {
         outcome.counts_agree = false;
         outcome.notes.push_back(fmt::format("frame {}: {} finds {} contacts, harpoon {}", frame,
                                             engines[e]->name(), done->contacts,

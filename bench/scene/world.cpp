@@ -10,10 +10,11 @@
 namespace harpoon::bench {
 namespace {
 
-constexpr std::array<std::pair<std::string_view, WorldKind>, 5> kNames = {{
+constexpr std::array<std::pair<std::string_view, WorldKind>, 6> kNames = {{
     {"gas", WorldKind::gas},
     {"packed", WorldKind::packed},
     {"polydisperse", WorldKind::polydisperse},
+    {"bed", WorldKind::bed},
     {"diamond", WorldKind::diamond},
     {"clusters", WorldKind::clusters},
 }};
@@ -73,6 +74,28 @@ void pack(Spheres& spheres, std::size_t begin, std::size_t end, double fraction,
   }
 }
 
+/// A face-centred cubic lattice: every second node of a cubic one. Bodies are moved so far off
+/// their nodes that about a third of neighbours touch.
+void lay_bed(Spheres& spheres, Numbers& numbers) {
+  constexpr double kFraction = 0.72;
+  constexpr double kJitter = 0.044;  // of the radius
+  const double radius = spheres[0].r;
+  const double step = radius * std::cbrt(2 * std::numbers::pi / 3 / kFraction);
+  const auto width =
+      static_cast<std::size_t>(std::ceil(std::cbrt(2 * static_cast<double>(spheres.size()))));
+  std::size_t n = 0;
+  for (std::size_t node = 0; n < spheres.size(); ++node) {
+    const std::size_t i = node % width;
+    const std::size_t j = node / width % width;
+    const std::size_t k = node / width / width;
+    if ((i + j + k) % 2 != 0) continue;
+    const auto at = [&](std::size_t index) {
+      return static_cast<double>(index) * step + numbers.uniform(-kJitter, kJitter) * radius;
+    };
+    spheres[n++] = {at(i), at(j), at(k), radius};
+  }
+}
+
 /// Shells of the diamond |i| + |j| + |k| = h, from the centre out.
 void diamond(Spheres& spheres) {
   std::size_t n = 0;
@@ -127,6 +150,9 @@ MovingWorld::MovingWorld(WorldKind kind, std::size_t bodies, std::uint64_t seed)
     case WorldKind::polydisperse:
       for (SphereF64& s : start_) s.r = std::exp(numbers.uniform(std::log(0.05), 0));
       scatter(start_, 0.2, numbers);
+      break;
+    case WorldKind::bed:
+      if (bodies != 0) lay_bed(start_, numbers);
       break;
     case WorldKind::diamond:
       diamond(start_);

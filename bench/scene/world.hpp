@@ -17,6 +17,7 @@ enum class WorldKind : std::uint8_t {
   gas,           ///< uniform in a cube, 5 % of its volume
   packed,        ///< jittered cubic lattice, 55 % of the volume
   polydisperse,  ///< radii 1:20 with uniform logarithm, uniform in a cube, 20 % of its volume
+  bed,           ///< jittered face-centred cubic lattice, 72 % of the volume: a settled bed
   diamond,       ///< the paper's |i| + |j| + |k| <= h lattice of touching spheres, cut to size
   clusters,      ///< two packed clusters 10^6 metres apart
 };

@@ -1,13 +1,16 @@
 #pragma once
 
-/// The scene door: bodies in, all contacts out. Spheres, float and double.
+/// The scene door: bodies in, all contacts out. Spheres, float and double; for other shapes all
+/// pairs whose bounds overlap.
 ///
 /// `detect` looks at one frame and remembers nothing. `Scene` (SceneF64) keeps bodies, nearby pairs
 /// and memory between frames: faster when bodies move little, nearly free when none moves.
+/// `overlap_pairs` takes axis-aligned boxes of anything and leaves the collider to the caller.
 ///
-/// Both find exactly the pairs that the collider finds when it is given all pairs (after filters),
-/// and each contact has the bits of `collide` for {body g1, body g2} with g1 < g2. Neither the set
-/// of contacts nor their order depends on threads, instruction set or earlier calls.
+/// `detect` and `Scene` find exactly the pairs that the collider finds when it is given all pairs
+/// (after filters), and each contact has the bits of `collide` for {body g1, body g2} with g1 < g2.
+/// Neither the set of contacts nor their order depends on threads, instruction set or earlier
+/// calls.
 ///
 /// Bodies with a coordinate or radius that is not finite, a coordinate beyond +-`kSceneLimit`, or a
 /// radius below 0 or beyond `kSceneLimit` take part in nothing and are reported by id; everything
@@ -87,6 +90,25 @@ struct BodiesOf {
 
 using Bodies = BodiesOf<float>;
 using BodiesF64 = BodiesOf<double>;
+
+/// Axis-aligned boxes in the caller's memory, six numbers each: min x, max x, min y, max y, min z,
+/// max z (ODE's order); one box `stride_bytes` after the other. Box i has id i. Boxes are closed:
+/// they overlap where they only touch. An extent may be 0 or infinite. Views only, as `BodiesOf`.
+template <class Real>
+struct BoundsOf {
+  const Real* first = nullptr;
+  std::size_t stride_bytes = 6 * sizeof(Real);
+  std::size_t count = 0;
+  Filters filters = {};
+
+  BoundsOf() = default;
+  /// `box_bytes` is a multiple of the alignment of Real.
+  BoundsOf(const Real* first_min_x, std::size_t boxes, std::size_t box_bytes = 6 * sizeof(Real))
+      : first(first_min_x), stride_bytes(box_bytes), count(boxes) {}
+};
+
+using Bounds = BoundsOf<float>;
+using BoundsF64 = BoundsOf<double>;
 
 /// The order of results.
 enum class ContactOrder : std::uint8_t {
@@ -180,6 +202,17 @@ HARPOON_API Result<DetectReport> count_contacts(Workspace& workspace,
                                                 const Bodies& bodies) noexcept;
 HARPOON_API Result<DetectReport> count_contacts(Workspace& workspace,
                                                 const BodiesF64& bodies) noexcept;
+
+/// All pairs g1 < g2 of boxes that overlap and pass the filters, written to the front of `out`;
+/// exact in both precisions. Boxes with a NaN or a min beyond its max take part in nothing and are
+/// listed in `excluded`. `contacts` of the report is the number of pairs. A few boxes that are
+/// infinite or huge beside the rest cost one pass over all others each. Errors as `detect`.
+HARPOON_API Result<DetectReport> overlap_pairs(Workspace& workspace, const Bounds& boxes,
+                                               std::span<IndexPair> out,
+                                               ContactOrder order = ContactOrder::space) noexcept;
+HARPOON_API Result<DetectReport> overlap_pairs(Workspace& workspace, const BoundsF64& boxes,
+                                               std::span<IndexPair> out,
+                                               ContactOrder order = ContactOrder::space) noexcept;
 
 /// How a body of a scene is filtered; see `Filters`.
 struct BodyRules {

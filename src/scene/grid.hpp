@@ -55,10 +55,13 @@ struct CullMap {
 };
 inline constexpr double kRadiusScale = 1.0 + 0x1p-19;
 
-/// Sorted bodies as the search reads them: culling coordinates, one array each.
+/// Sorted bodies as the search reads them: culling coordinates, one array each. For spheres x, y, z
+/// is the centre. For boxes it is the lowest corner, r half of the longest side, and the highest
+/// corner comes with it.
 template <class Cull>
 struct CullArrays {
   Cull *x, *y, *z, *r;
+  Cull *high_x = nullptr, *high_y = nullptr, *high_z = nullptr;
 };
 
 }  // namespace harpoon::scene

@@ -59,10 +59,10 @@ HWY_INLINE Bodies<Real> load_bodies(const Source<Real>& source, std::size_t i, s
   return b;
 }
 
-// ---- Bounds ---------------------------------------------------------------------------------
+// ---- Extremes -------------------------------------------------------------------------------
 
 template <class Real>
-Bounds<Real> bounds(const Source<Real>& source, std::size_t begin, std::size_t end) {
+Extremes<Real> extremes(const Source<Real>& source, std::size_t begin, std::size_t end) {
   const Tag<Real> d;
   const std::size_t lanes = hn::Lanes(d);
   const auto limit = hn::Set(d, kLimit<Real>);
@@ -87,7 +87,7 @@ Bounds<Real> bounds(const Source<Real>& source, std::size_t begin, std::size_t e
       max[k] = hn::Max(max[k], hn::IfThenElse(valid, fields[k], low));
     }
   }
-  Bounds<Real> out;
+  Extremes<Real> out;
   for (int k = 0; k < 4; ++k) {
     out.min[k] = hn::GetLane(hn::MinOfLanes(d, min[k]));
     out.max[k] = hn::GetLane(hn::MaxOfLanes(d, max[k]));
@@ -314,36 +314,148 @@ HWY_INLINE void append(Tag<double> d, const M& hits, std::uint32_t i, std::uint3
   }
 }
 
-/// What the tests of one block share.
+/// A shape says when two bodies are candidates and what a body covers along an axis. An object of
+/// it is the body that a run is tested against.
 template <class Cull>
+struct SphereShape {
+  using Number = Cull;
+  using Vec = Vector<Cull>;
+  Vec x, y, z, r;
+
+  HWY_INLINE SphereShape(const SearchJob<Cull>& job, std::uint32_t i) {
+    const Tag<Cull> d;
+    x = hn::Set(d, job.bodies.x[i]);
+    y = hn::Set(d, job.bodies.y[i]);
+    z = hn::Set(d, job.bodies.z[i]);
+    r = hn::Set(d, job.bodies.r[i]);
+  }
+
+  /// Which of the first `present` bodies from sorted position j on are candidates.
+  HWY_INLINE auto near(const SearchJob<Cull>& job, std::uint32_t, std::uint32_t j,
+                       std::uint32_t present) const {
+    const Tag<Cull> d;
+    const CullArrays<Cull>& bodies = job.bodies;
+    const auto dx = hn::Sub(hn::LoadU(d, bodies.x + j), x);
+    const auto dy = hn::Sub(hn::LoadU(d, bodies.y + j), y);
+    const auto dz = hn::Sub(hn::LoadU(d, bodies.z + j), z);
+    const auto reach = hn::Add(hn::LoadU(d, bodies.r + j), r);
+    const auto squared = hn::MulAdd(dx, dx, hn::MulAdd(dy, dy, hn::Mul(dz, dz)));
+    const auto within = hn::Le(squared, hn::Mul(reach, reach));
+    return hn::And(within, hn::FirstN(d, present));
+  }
+
+  /// Where the coordinates of partners of a level lie.
+  template <class D>
+  static HWY_INLINE hn::Vec<D> low(D d, const CullArrays<Cull>& bodies, int axis, std::uint32_t i,
+                                   const hn::Vec<D>& largest) {
+    return hn::Sub(hn::LoadU(d, at(bodies, axis) + i), reach(d, bodies, i, largest));
+  }
+  template <class D>
+  static HWY_INLINE hn::Vec<D> high(D d, const CullArrays<Cull>& bodies, int axis, std::uint32_t i,
+                                    const hn::Vec<D>& largest) {
+    return hn::Add(hn::LoadU(d, at(bodies, axis) + i), reach(d, bodies, i, largest));
+  }
+
+ private:
+  static HWY_INLINE const Cull* at(const CullArrays<Cull>& bodies, int axis) {
+    return axis == 0 ? bodies.x : axis == 1 ? bodies.y : bodies.z;
+  }
+  template <class D>
+  static HWY_INLINE hn::Vec<D> reach(D d, const CullArrays<Cull>& bodies, std::uint32_t i,
+                                     const hn::Vec<D>& largest) {
+    return hn::Add(hn::LoadU(d, bodies.r + i), largest);
+  }
+};
+
+/// Boxes are sorted by their lowest corner. Rounding to culling coordinates is monotone, so closed
+/// boxes that overlap still do, and boxes that overlap by more than a touch certainly did.
+template <class Cull>
+struct BoxShape {
+  using Number = Cull;
+  using Vec = Vector<Cull>;
+  Vec x, y, z, high_x, high_y, high_z;
+
+  HWY_INLINE BoxShape(const SearchJob<Cull>& job, std::uint32_t i) {
+    const Tag<Cull> d;
+    x = hn::Set(d, job.bodies.x[i]);
+    y = hn::Set(d, job.bodies.y[i]);
+    z = hn::Set(d, job.bodies.z[i]);
+    high_x = hn::Set(d, job.bodies.high_x[i]);
+    high_y = hn::Set(d, job.bodies.high_y[i]);
+    high_z = hn::Set(d, job.bodies.high_z[i]);
+  }
+
+  HWY_INLINE auto near(const SearchJob<Cull>& job, std::uint32_t i, std::uint32_t j,
+                       std::uint32_t present) const {
+    const Tag<Cull> d;
+    const CullArrays<Cull>& b = job.bodies;
+    const auto low_x = hn::LoadU(d, b.x + j);
+    const auto low_y = hn::LoadU(d, b.y + j);
+    const auto low_z = hn::LoadU(d, b.z + j);
+    const auto top_x = hn::LoadU(d, b.high_x + j);
+    const auto top_y = hn::LoadU(d, b.high_y + j);
+    const auto top_z = hn::LoadU(d, b.high_z + j);
+    const auto along_x = hn::And(hn::Le(low_x, high_x), hn::Ge(top_x, x));
+    const auto along_y = hn::And(hn::Le(low_y, high_y), hn::Ge(top_y, y));
+    const auto along_z = hn::And(hn::Le(low_z, high_z), hn::Ge(top_z, z));
+    auto hits = hn::And(hn::And(along_x, along_y), hn::And(along_z, hn::FirstN(d, present)));
+    if (job.judge != nullptr) {
+      const auto same_x = hn::Or(hn::Eq(low_x, high_x), hn::Eq(top_x, x));
+      const auto same_y = hn::Or(hn::Eq(low_y, high_y), hn::Eq(top_y, y));
+      const auto same_z = hn::Or(hn::Eq(low_z, high_z), hn::Eq(top_z, z));
+      const auto unsure = hn::And(hits, hn::Or(hn::Or(same_x, same_y), same_z));
+      if (HWY_UNLIKELY(!hn::AllFalse(d, unsure))) hits = judged(*job.judge, i, j, hits, unsure);
+    }
+    return hits;
+  }
+
+  template <class D>
+  static HWY_INLINE hn::Vec<D> low(D d, const CullArrays<Cull>& b, int axis, std::uint32_t i,
+                                   const hn::Vec<D>& largest) {
+    const Cull* const at = axis == 0 ? b.x : axis == 1 ? b.y : b.z;
+    return hn::Sub(hn::LoadU(d, at + i), hn::Add(largest, largest));
+  }
+  template <class D>
+  static HWY_INLINE hn::Vec<D> high(D d, const CullArrays<Cull>& b, int axis, std::uint32_t i,
+                                    const hn::Vec<D>&) {
+    const Cull* const at = axis == 0 ? b.high_x : axis == 1 ? b.high_y : b.high_z;
+    return hn::LoadU(d, at + i);
+  }
+
+ private:
+  template <class M>
+  static HWY_NOINLINE M judged(const BoxJudge& judge, std::uint32_t i, std::uint32_t j, M hits,
+                               M unsure) {
+    const Tag<Cull> d;
+    HWY_ALIGN Cull apart[HWY_MAX_BYTES / sizeof(Cull)] = {};
+    for (std::uint32_t bits = mask_bits(d, unsure); bits != 0; bits &= bits - 1) {
+      const auto lane = static_cast<std::uint32_t>(hwy::Num0BitsBelowLS1Bit_Nonzero32(bits));
+      apart[lane] = judge.overlap(judge, i, j + lane) ? Cull(0) : Cull(1);
+    }
+    return hn::And(hits, hn::Eq(hn::Load(d, apart), hn::Zero(d)));
+  }
+};
+
+/// What the tests of one block share.
+template <class Shape>
 struct BlockSearch {
-  const CullArrays<Cull> bodies;
+  using Cull = typename Shape::Number;
+  const SearchJob<Cull> job;
   std::uint32_t begin;  ///< sorted position of the block
   Candidates& list;
   RoomMaker& room;
 };
 
-/// The block's k-th body against the sorted positions [first, end).
-template <class Cull>
-HWY_INLINE Cursor test_run(const BlockSearch<Cull>& block, std::uint32_t k, std::uint32_t first,
+/// Body i against the sorted positions [first, end).
+template <class Shape>
+HWY_INLINE Cursor test_run(const BlockSearch<Shape>& block, std::uint32_t i, std::uint32_t first,
                            std::uint32_t end, Cursor cursor) {
-  const Tag<Cull> d;
+  const Tag<typename Shape::Number> d;
   const auto lanes = static_cast<std::uint32_t>(hn::Lanes(d));
-  const CullArrays<Cull>& bodies = block.bodies;
-  const std::uint32_t i = block.begin + k;
-  const auto xi = hn::Set(d, bodies.x[i]);
-  const auto yi = hn::Set(d, bodies.y[i]);
-  const auto zi = hn::Set(d, bodies.z[i]);
-  const auto ri = hn::Set(d, bodies.r[i]);
+  const Shape body(block.job, i);
   std::uint32_t j = first;
   do {
-    const auto dx = hn::Sub(hn::LoadU(d, bodies.x + j), xi);
-    const auto dy = hn::Sub(hn::LoadU(d, bodies.y + j), yi);
-    const auto dz = hn::Sub(hn::LoadU(d, bodies.z + j), zi);
-    const auto reach = hn::Add(hn::LoadU(d, bodies.r + j), ri);
-    const auto squared = hn::MulAdd(dx, dx, hn::MulAdd(dy, dy, hn::Mul(dz, dz)));
-    const auto near = hn::Le(squared, hn::Mul(reach, reach));
-    append(d, hn::And(near, hn::FirstN(d, end - j)), i, j, cursor);
+    append(d, body.near(block.job, i, j, end - j), i, j, cursor);
     if (HWY_UNLIKELY(cursor.count + kMaxLanes > cursor.capacity)) {
       cursor = make_room(cursor, block.list, block.room);
     }
@@ -354,21 +466,22 @@ HWY_INLINE Cursor test_run(const BlockSearch<Cull>& block, std::uint32_t k, std:
 
 /// The block's k-th body against `length` buckets from `first` on, which may run over the end of a
 /// folded table. Adds to `tested`.
-template <class Cull>
-HWY_INLINE Cursor test_buckets(const BlockSearch<Cull>& block, const Grid<Cull>& grid,
+template <class Shape, class Cull>
+HWY_INLINE Cursor test_buckets(const BlockSearch<Shape>& block, const Grid<Cull>& grid,
                                std::uint32_t k, std::uint32_t first, std::uint32_t length,
                                Cursor cursor, std::uint64_t& tested) {
+  const std::uint32_t i = block.begin + k;
   const std::uint32_t last = first + length - 1;
   const std::uint32_t begin = grid.ends[static_cast<std::ptrdiff_t>(first) - 1];
   if (HWY_LIKELY(last < grid.buckets)) {
     const std::uint32_t end = grid.ends[last];
     tested += end - begin;
-    return test_run(block, k, begin, end, cursor);
+    return test_run(block, i, begin, end, cursor);
   }
   const std::uint32_t end = grid.ends[last - grid.buckets];
   tested += grid.end - begin + (end - grid.begin);
-  cursor = test_run(block, k, begin, grid.end, cursor);
-  return test_run(block, k, grid.begin, end, cursor);
+  cursor = test_run(block, i, begin, grid.end, cursor);
+  return test_run(block, i, grid.begin, end, cursor);
 }
 
 /// Some bodies of a block, as offsets from its first.
@@ -436,8 +549,8 @@ HWY_INLINE void fill_own_cells(const SearchJob<double>& job, const Grid<double>&
 }
 
 /// The selected bodies against the neighbouring row `offset` buckets away.
-template <class Cull>
-HWY_INLINE Cursor search_row(const BlockSearch<Cull>& block, const Grid<Cull>& grid,
+template <class Shape, class Cull>
+HWY_INLINE Cursor search_row(const BlockSearch<Shape>& block, const Grid<Cull>& grid,
                              const OwnCells& cells, const Selection& who, std::uint32_t offset,
                              Cursor cursor, std::uint64_t& tested) {
   const std::uint32_t from = offset - grid.half_window;
@@ -451,13 +564,13 @@ HWY_INLINE Cursor search_row(const BlockSearch<Cull>& block, const Grid<Cull>& g
 }
 
 /// A block among the bodies of its own level: its own rows forward, then the rows after them.
-template <class Cull>
+template <class Shape, class Cull>
 HWY_NOINLINE std::uint64_t search_own_level(const SearchJob<Cull>& job, const Grid<Cull>& grid,
                                             std::uint32_t begin, std::uint32_t end,
                                             Candidates& list, RoomMaker& room) {
   OwnCells cells;
   fill_own_cells(job, grid, begin, end - begin, cells);
-  const BlockSearch<Cull> block{job.bodies, begin, list, room};
+  const BlockSearch<Shape> block{job, begin, list, room};
   Cursor cursor = cursor_of(list);
   std::uint64_t tested = 0;
   for (std::uint32_t i = begin; i < end; ++i) {
@@ -465,12 +578,12 @@ HWY_NOINLINE std::uint64_t search_own_level(const SearchJob<Cull>& job, const Gr
     const std::uint32_t last = cells.bucket[k] + grid.half_window;
     if (HWY_LIKELY(last < grid.buckets)) {
       tested += grid.ends[last] - i - 1;
-      cursor = test_run(block, k, i + 1, grid.ends[last], cursor);
+      cursor = test_run(block, i, i + 1, grid.ends[last], cursor);
     } else {
       const std::uint32_t wrapped = grid.ends[last - grid.buckets];
       tested += grid.end - i - 1 + (wrapped - grid.begin);
-      cursor = test_run(block, k, i + 1, grid.end, cursor);
-      cursor = test_run(block, k, grid.begin, wrapped, cursor);
+      cursor = test_run(block, i, i + 1, grid.end, cursor);
+      cursor = test_run(block, i, grid.begin, wrapped, cursor);
     }
   }
   const std::uint32_t y = grid.stride_y;
@@ -495,20 +608,21 @@ struct Interval {
   hn::Vec<Index> low, high;
 };
 
-/// Cells that [at - reach, at + reach] overlaps, of those that hold bodies. Rounding is monotone
-/// and coordinates are exact, so no body in reach is outside.
-HWY_INLINE Interval cells_between(const Vector<float>& at, const Vector<float>& reach, float origin,
+/// Cells that [low, high] overlaps, of those that hold bodies. Rounding is monotone and coordinates
+/// are exact, so no body in it is outside.
+HWY_INLINE Interval cells_between(const Vector<float>& low, const Vector<float>& high, float origin,
                                   float per_unit, float last) {
   const Tag<float> d;
   const auto start = hn::Set(d, origin);
   const auto scale = hn::Set(d, per_unit);
   const auto top = hn::Set(d, last);
-  const auto low = hn::Mul(hn::Sub(hn::Sub(at, reach), start), scale);
-  const auto high = hn::Mul(hn::Sub(hn::Add(at, reach), start), scale);
-  return {to_index(hn::Min(hn::Max(low, hn::Zero(d)), top)),
-          to_index(hn::Min(hn::Max(high, hn::Zero(d)), top))};
+  const auto from = hn::Mul(hn::Sub(low, start), scale);
+  const auto to = hn::Mul(hn::Sub(high, start), scale);
+  return {to_index(hn::Min(hn::Max(from, hn::Zero(d)), top)),
+          to_index(hn::Min(hn::Max(to, hn::Zero(d)), top))};
 }
 
+template <class Shape>
 HWY_INLINE void fill_foreign_cells(const SearchJob<float>& job, const Grid<float>& grid,
                                    std::uint32_t begin, std::uint32_t count, ForeignCells& out) {
   const Tag<float> d;
@@ -516,14 +630,15 @@ HWY_INLINE void fill_foreign_cells(const SearchJob<float>& job, const Grid<float
   const auto lanes = static_cast<std::uint32_t>(hn::Lanes(d));
   const auto largest = hn::Set(d, grid.max_radius);
   const std::uint32_t shift = grid.row_shift;
+  const auto along = [&](int axis, std::uint32_t i, float per_unit, float last) HWY_ATTR {
+    return cells_between(Shape::low(d, job.bodies, axis, i, largest),
+                         Shape::high(d, job.bodies, axis, i, largest), grid.origin[axis], per_unit,
+                         last);
+  };
   for (std::uint32_t k = 0; k < count; k += lanes) {
-    const auto reach = hn::Add(hn::LoadU(d, job.bodies.r + begin + k), largest);
-    const Interval x = cells_between(hn::LoadU(d, job.bodies.x + begin + k), reach, grid.origin[0],
-                                     grid.cells_per_unit_x, grid.last_cell_x);
-    const Interval y = cells_between(hn::LoadU(d, job.bodies.y + begin + k), reach, grid.origin[1],
-                                     grid.sub_cells_per_unit, grid.last_sub_cell_y);
-    const Interval z = cells_between(hn::LoadU(d, job.bodies.z + begin + k), reach, grid.origin[2],
-                                     grid.sub_cells_per_unit, grid.last_sub_cell_z);
+    const Interval x = along(0, begin + k, grid.cells_per_unit_x, grid.last_cell_x);
+    const Interval y = along(1, begin + k, grid.sub_cells_per_unit, grid.last_sub_cell_y);
+    const Interval z = along(2, begin + k, grid.sub_cells_per_unit, grid.last_sub_cell_z);
     const auto row_y = shifted(y.low, shift);
     const auto row_z = shifted(z.low, shift);
     const auto first = hn::Add(hn::Add(x.low, hn::Mul(row_y, hn::Set(du, grid.stride_y))),
@@ -545,25 +660,29 @@ struct ScalarInterval {
   std::uint32_t low, high;
 };
 
-HWY_INLINE ScalarInterval cells_between(double at, double reach, double origin, double per_unit,
+HWY_INLINE ScalarInterval cells_between(double low, double high, double origin, double per_unit,
                                         double last) {
-  const double low = (at - reach - origin) * per_unit;
-  const double high = (at + reach - origin) * per_unit;
-  return {static_cast<std::uint32_t>(std::min(std::max(low, 0.0), last)),
-          static_cast<std::uint32_t>(std::min(std::max(high, 0.0), last))};
+  const double from = (low - origin) * per_unit;
+  const double to = (high - origin) * per_unit;
+  return {static_cast<std::uint32_t>(std::min(std::max(from, 0.0), last)),
+          static_cast<std::uint32_t>(std::min(std::max(to, 0.0), last))};
 }
 
+template <class Shape>
 HWY_INLINE void fill_foreign_cells(const SearchJob<double>& job, const Grid<double>& grid,
                                    std::uint32_t begin, std::uint32_t count, ForeignCells& out) {
+  const hn::CappedTag<double, 1> one;
+  const auto largest = hn::Set(one, grid.max_radius);
   const std::uint32_t shift = grid.row_shift;
+  const auto along = [&](int axis, std::uint32_t i, double per_unit, double last) HWY_ATTR {
+    return cells_between(hn::GetLane(Shape::low(one, job.bodies, axis, i, largest)),
+                         hn::GetLane(Shape::high(one, job.bodies, axis, i, largest)),
+                         grid.origin[axis], per_unit, last);
+  };
   for (std::uint32_t k = 0; k < count; ++k) {
-    const double reach = job.bodies.r[begin + k] + grid.max_radius;
-    const auto x = cells_between(job.bodies.x[begin + k], reach, grid.origin[0],
-                                 grid.cells_per_unit_x, grid.last_cell_x);
-    const auto y = cells_between(job.bodies.y[begin + k], reach, grid.origin[1],
-                                 grid.sub_cells_per_unit, grid.last_sub_cell_y);
-    const auto z = cells_between(job.bodies.z[begin + k], reach, grid.origin[2],
-                                 grid.sub_cells_per_unit, grid.last_sub_cell_z);
+    const auto x = along(0, begin + k, grid.cells_per_unit_x, grid.last_cell_x);
+    const auto y = along(1, begin + k, grid.sub_cells_per_unit, grid.last_sub_cell_y);
+    const auto z = along(2, begin + k, grid.sub_cells_per_unit, grid.last_sub_cell_z);
     out.first[k] = x.low + grid.stride_y * (y.low >> shift) + grid.stride_z * (z.low >> shift);
     out.length[k] = x.high - x.low + 1;
     const bool next_y = (y.high >> shift) > (y.low >> shift);
@@ -576,13 +695,13 @@ HWY_INLINE void fill_foreign_cells(const SearchJob<double>& job, const Grid<doub
 }
 
 /// A block against the bodies of a coarser level.
-template <class Cull>
+template <class Shape, class Cull>
 HWY_NOINLINE std::uint64_t search_coarser_level(const SearchJob<Cull>& job, const Grid<Cull>& grid,
                                                 std::uint32_t begin, std::uint32_t end,
                                                 Candidates& list, RoomMaker& room) {
   ForeignCells cells;
-  fill_foreign_cells(job, grid, begin, end - begin, cells);
-  const BlockSearch<Cull> block{job.bodies, begin, list, room};
+  fill_foreign_cells<Shape>(job, grid, begin, end - begin, cells);
+  const BlockSearch<Shape> block{job, begin, list, room};
   Cursor cursor = cursor_of(list);
   std::uint64_t tested = 0;
   const auto rows = [&](const Selection& who, std::uint32_t offset) HWY_ATTR {
@@ -600,13 +719,43 @@ HWY_NOINLINE std::uint64_t search_coarser_level(const SearchJob<Cull>& job, cons
   return tested;
 }
 
-template <class Cull>
+/// A block against all scanned bodies: each of them in turn against the whole block.
+template <class Shape, class Cull>
+HWY_NOINLINE std::uint64_t scan(const SearchJob<Cull>& job, std::uint32_t begin, std::uint32_t end,
+                                Candidates& list, RoomMaker& room) {
+  const BlockSearch<Shape> block{job, begin, list, room};
+  Cursor cursor = cursor_of(list);
+  for (std::uint32_t i = job.scanned_begin; i < job.scanned_end; ++i) {
+    cursor = test_run(block, i, begin, end, cursor);
+  }
+  list.count = cursor.count;
+  return std::uint64_t{end - begin} * (job.scanned_end - job.scanned_begin);
+}
+
+/// Scanned bodies [begin, end) among themselves and the later ones.
+template <class Shape, class Cull>
+HWY_NOINLINE std::uint64_t scan_scanned(const SearchJob<Cull>& job, std::uint32_t begin,
+                                        std::uint32_t end, Candidates& list, RoomMaker& room) {
+  const BlockSearch<Shape> block{job, begin, list, room};
+  Cursor cursor = cursor_of(list);
+  std::uint64_t tested = 0;
+  for (std::uint32_t i = begin; i < end; ++i) {
+    tested += job.scanned_end - i - 1;
+    cursor = test_run(block, i, i + 1, job.scanned_end, cursor);
+  }
+  list.count = cursor.count;
+  return tested;
+}
+
+template <class Shape, class Cull>
 std::uint64_t search(const SearchJob<Cull>& job, std::size_t level, std::uint32_t begin,
                      std::uint32_t end, Candidates& list, RoomMaker& room) {
-  std::uint64_t tested = search_own_level(job, job.grids[level], begin, end, list, room);
+  if (level == job.levels) return scan_scanned<Shape>(job, begin, end, list, room);
+  std::uint64_t tested = search_own_level<Shape>(job, job.grids[level], begin, end, list, room);
   for (std::size_t coarser = 0; coarser < level; ++coarser) {
-    tested += search_coarser_level(job, job.grids[coarser], begin, end, list, room);
+    tested += search_coarser_level<Shape>(job, job.grids[coarser], begin, end, list, room);
   }
+  if (job.scanned_end != job.scanned_begin) tested += scan<Shape>(job, begin, end, list, room);
   return tested;
 }
 
@@ -751,12 +900,14 @@ HWY_FLATTEN std::size_t contacts(const SphereOf<Real>* bodies, const std::uint32
 
 template <class Real>
 constexpr Kernels<Real> kKernels = {
-    bounds<Real>,
+    extremes<Real>,
     largest_move<Real>,
     keep_hits<Real>,
     contacts<Real>,
-    {buckets_float<Real>, cull_arrays_float<Real>, search<float>},
-    {buckets_double<Real>, cull_arrays_double<Real>, search<double>},
+    {buckets_float<Real>, cull_arrays_float<Real>, search<SphereShape<float>, float>,
+     search<BoxShape<float>, float>},
+    {buckets_double<Real>, cull_arrays_double<Real>, search<SphereShape<double>, double>,
+     search<BoxShape<double>, double>},
 };
 
 const KernelTable* get_kernels() {

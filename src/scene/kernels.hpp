@@ -38,7 +38,7 @@ inline constexpr Real kLimit = std::is_same_v<Real, float> ? Real(0x1p62) : Real
 
 /// Extremes over the valid bodies of a range.
 template <class Real>
-struct Bounds {
+struct Extremes {
   Real min[4];  ///< x, y, z, r
   Real max[4];
   std::size_t invalid = 0;
@@ -57,12 +57,29 @@ struct RoomMaker {
   void (*make_room)(RoomMaker& self, Candidates& list) = nullptr;
 };
 
+/// Decides about two boxes, given by sorted position, of which culling cannot tell whether they
+/// touch.
+struct BoxJudge {
+  bool (*overlap)(const BoxJudge& self, std::uint32_t i, std::uint32_t j) = nullptr;
+};
+
 template <class Cull>
 struct SearchJob {
   const Grid<Cull>* grids;  ///< coarsest level first
   std::size_t levels;
   CullArrays<Cull> bodies;
+  std::uint32_t scanned_begin = 0;  ///< sorted positions of bodies that are in no grid
+  std::uint32_t scanned_end = 0;
+  const BoxJudge* judge = nullptr;  ///< null where culling is exact; boxes only
 };
+
+/// Candidates of the bodies [begin, end) of one level, a block: among themselves and later bodies
+/// of the level, against all coarser levels, and against the scanned bodies. Level job.levels is
+/// the scanned bodies themselves. Returns the pairs tested.
+template <class Cull>
+using SearchKernel = std::uint64_t (*)(const SearchJob<Cull>& job, std::size_t level,
+                                       std::uint32_t begin, std::uint32_t end, Candidates& list,
+                                       RoomMaker& room);
 
 template <class Real, class Cull>
 struct CullKernels {
@@ -72,15 +89,14 @@ struct CullKernels {
   /// Culling arrays from sorted bodies [begin, end).
   void (*cull_arrays)(const SphereOf<Real>* bodies, const CullMap& map, std::size_t begin,
                       std::size_t end, const CullArrays<Cull>& out);
-  /// Candidates of the bodies [begin, end) of one level, a block: among themselves and later
-  /// bodies of the level, and against all coarser levels. Returns the pairs tested.
-  std::uint64_t (*search)(const SearchJob<Cull>& job, std::size_t level, std::uint32_t begin,
-                          std::uint32_t end, Candidates& list, RoomMaker& room);
+  SearchKernel<Cull> search;
+  /// Where the arrays hold boxes: candidates overlap exactly.
+  SearchKernel<Cull> search_boxes;
 };
 
 template <class Real>
 struct Kernels {
-  Bounds<Real> (*bounds)(const Source<Real>& source, std::size_t begin, std::size_t end);
+  Extremes<Real> (*extremes)(const Source<Real>& source, std::size_t begin, std::size_t end);
   /// The largest squared distance between a body's places in the two arrays; infinite when a radius
   /// differs or a number is not finite.
   Real (*largest_move)(const SphereOf<Real>* from, const SphereOf<Real>* to, std::size_t count);

@@ -59,8 +59,8 @@ class Classifier {
 constexpr double kOneClassRatio = 1.5;
 
 template <class Real>
-bool one_class(const Bounds<Real>& bounds) noexcept {
-  return static_cast<double>(bounds.max[3]) <= kOneClassRatio * static_cast<double>(bounds.min[3]);
+bool one_class(const Extremes<Real>& e) noexcept {
+  return static_cast<double>(e.max[3]) <= kOneClassRatio * static_cast<double>(e.min[3]);
 }
 
 /// Tasks for a pass over `bodies`, and where they begin.
@@ -78,7 +78,7 @@ struct Chunks {
 };
 
 template <class Real>
-void merge(Bounds<Real>& into, const Bounds<Real>& from) noexcept {
+void merge(Extremes<Real>& into, const Extremes<Real>& from) noexcept {
   for (int k = 0; k < 4; ++k) {
     into.min[k] = std::min(into.min[k], from.min[k]);
     into.max[k] = std::max(into.max[k], from.max[k]);
@@ -167,10 +167,11 @@ class Sorter {
 
   std::optional<Error> run() {
     const std::size_t bodies = survey_.census.bodies;
-    if (!make_grids() || !reserve(bodies)) return out_of_memory();
+    if (!make_grids() || !reserve(bodies + out_.scanned)) return out_of_memory();
+    if (bodies == 0) return std::nullopt;
     const std::uint32_t* ids = nullptr;
     Source<Real> source = source_;
-    if (plan_.level_count > 1 || survey_.bounds.invalid != 0) {
+    if (plan_.level_count > 1 || survey_.extremes.invalid != 0) {
       if (auto error = stage_levels()) return error;
       source = records(memory_.staged.template as<SphereOf<Real>>(), bodies);
       ids = memory_.staged_ids.as<std::uint32_t>();
@@ -188,8 +189,10 @@ class Sorter {
     Cull min[3];
     Cull max[3];
     for (int k = 0; k < 3; ++k) {
-      min[k] = static_cast<Cull>(static_cast<double>(survey_.bounds.min[k]) - plan_.map.origin[k]);
-      max[k] = static_cast<Cull>(static_cast<double>(survey_.bounds.max[k]) - plan_.map.origin[k]);
+      min[k] =
+          static_cast<Cull>(static_cast<double>(survey_.extremes.min[k]) - plan_.map.origin[k]);
+      max[k] =
+          static_cast<Cull>(static_cast<double>(survey_.extremes.max[k]) - plan_.map.origin[k]);
     }
     std::size_t buckets = 0;
     std::size_t position = 0;
@@ -241,9 +244,9 @@ class Sorter {
       return out_of_memory();
     }
     CountTable counts(memory_.counts.as<std::uint32_t>(), chunks.count, levels);
-    const Classifier<Real> class_of(survey_.bounds.max[3]);
-    const bool single = one_class(survey_.bounds);
-    const bool all_valid = survey_.bounds.invalid == 0;
+    const Classifier<Real> class_of(survey_.extremes.max[3]);
+    const bool single = one_class(survey_.extremes);
+    const bool all_valid = survey_.extremes.invalid == 0;
     const auto each = [&](std::size_t chunk, const auto& visit) {
       const std::size_t end = chunks.begin(chunk + 1);
       for (std::size_t i = chunks.begin(chunk); i < end; ++i) {
@@ -395,45 +398,45 @@ std::optional<Error> survey(const Means& means, const Source<Real>& source, doub
   const auto& kernels = means.kernels->of<Real>();
   constexpr std::size_t kMaxChunks = 64;
   const std::size_t tasks = std::min(chunks.count, kMaxChunks);
-  Bounds<Real> bounds[kMaxChunks];
+  Extremes<Real> extremes[kMaxChunks];
   if (auto error = means.run(tasks, [&](std::size_t task) {
-        bounds[task] =
-            kernels.bounds(source, source.count * task / tasks, source.count * (task + 1) / tasks);
+        extremes[task] = kernels.extremes(source, source.count * task / tasks,
+                                          source.count * (task + 1) / tasks);
       })) {
     return error;
   }
-  for (std::size_t task = 1; task < tasks; ++task) merge(bounds[0], bounds[task]);
-  out.bounds = bounds[0];
-  if (out.bounds.invalid != 0) {
-    excluded.reserve(excluded.size() + out.bounds.invalid);
+  for (std::size_t task = 1; task < tasks; ++task) merge(extremes[0], extremes[task]);
+  out.extremes = extremes[0];
+  if (out.extremes.invalid != 0) {
+    excluded.reserve(excluded.size() + out.extremes.invalid);
     for (std::size_t i = 0; i < source.count; ++i) {
       if (!valid(source[i])) excluded.push_back(static_cast<std::uint32_t>(i));
     }
   }
   Census& census = out.census;
-  census.bodies = source.count - out.bounds.invalid;
+  census.bodies = source.count - out.extremes.invalid;
   census.margin = margin;
   census.real_digits = std::numeric_limits<Real>::digits;
   if (census.bodies == 0) return std::nullopt;
   for (int k = 0; k < 3; ++k) {
-    census.min[k] = static_cast<double>(out.bounds.min[k]);
-    census.max[k] = static_cast<double>(out.bounds.max[k]);
+    census.min[k] = static_cast<double>(out.extremes.min[k]);
+    census.max[k] = static_cast<double>(out.extremes.max[k]);
     census.occupied[k] = census.max[k] - census.min[k];
   }
-  if (one_class(out.bounds)) {
-    census.classes[0] = {census.bodies, static_cast<double>(out.bounds.max[3])};
+  if (one_class(out.extremes)) {
+    census.classes[0] = {census.bodies, static_cast<double>(out.extremes.max[3])};
   } else {
-    const Classifier<Real> class_of(out.bounds.max[3]);
+    const Classifier<Real> class_of(out.extremes.max[3]);
     for (std::size_t i = 0; i < source.count; ++i) {
       const SphereOf<Real> b = source[i];
-      if (out.bounds.invalid != 0 && !valid(b)) continue;
+      if (out.extremes.invalid != 0 && !valid(b)) continue;
       RadiusClass& c = census.classes[class_of(b.r)];
       ++c.bodies;
       c.max_radius = std::max(c.max_radius, static_cast<double>(b.r));
     }
   }
   if (is_sparse(census)) {
-    const double gap = 8 * (2 * static_cast<double>(out.bounds.max[3]) + margin);
+    const double gap = 8 * (2 * static_cast<double>(out.extremes.max[3]) + margin);
     for (int k = 0; k < 3; ++k) census.occupied[k] = occupied_length(source, k, gap);
   }
   return std::nullopt;

@@ -25,14 +25,15 @@ struct OrderMemory {
   Buffer sorted, ids, cull;
 };
 
-/// Bodies in search order.
+/// Bodies in search order: those in grids, then those that are in none and are tested against all.
 template <class Real, class Cull>
 struct Ordered {
   std::array<Grid<Cull>, kRadiusClasses> grids;  ///< coarsest level first
   std::size_t levels = 0;
-  std::size_t bodies = 0;
+  std::size_t bodies = 0;   ///< in grids
+  std::size_t scanned = 0;  ///< in none; set before ordering, which makes room for them
   const SphereOf<Real>* spheres = nullptr;
-  const std::uint32_t* ids = nullptr;
+  std::uint32_t* ids = nullptr;
   CullArrays<Cull> cull = {};
 };
 
@@ -58,7 +59,7 @@ struct Means {
 /// What one pass over the bodies finds. Invalid ones are appended to `excluded`.
 template <class Real>
 struct Survey {
-  Bounds<Real> bounds;
+  Extremes<Real> extremes;
   Census census;
 };
 
@@ -67,7 +68,7 @@ template <class Real>
 std::optional<Error> survey(const Means& means, const Source<Real>& source, double margin,
                             std::vector<std::uint32_t>& excluded, Survey<Real>& out);
 
-/// Orders the valid bodies. `invalid` is their number.
+/// Orders the valid bodies. Places of scanned bodies are left for the caller to fill.
 template <class Real, class Cull>
 std::optional<Error> order(const Means& means, const Source<Real>& source,
                            const Survey<Real>& survey, const Plan& plan, OrderMemory& memory,

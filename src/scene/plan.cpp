@@ -236,7 +236,7 @@ Plan make_plan(const Census& census) noexcept {
   Plan plan;
   plan.map = cull_map(census, false);
   Partition(census, plan.map).write(plan);
-  if (needs_double(census, plan)) {
+  if (census.cull_double || needs_double(census, plan)) {
     plan.cull_double = true;
     plan.map = cull_map(census, true);
     Partition(census, plan.map).write(plan);

@@ -27,8 +27,8 @@ struct Census {
   std::size_t bodies = 0;
   double min[3] = {0, 0, 0};
   double max[3] = {0, 0, 0};
-  double largest_magnitude = 0;  ///< of any coordinate
   double margin = 0;
+  bool cull_double = false;  ///< culling has to be in double
   std::size_t real_digits = std::numeric_limits<float>::digits;
   std::array<RadiusClass, kRadiusClasses> classes;
   /// How much of each axis the bodies occupy; the whole extent where that is not known.

@@ -188,7 +188,8 @@ class Searcher {
     scene::Ordered<Real, Cull> bodies;
     if (auto error = scene::order(means_, source, survey, plan, work_.order, bodies)) return error;
     const scene::PairFilter filter(state_.filters());
-    if (auto error = scene::search(means_, bodies, filter, 0, false, work_.search)) return error;
+    const scene::SearchRule rule{scene::SearchRule::Kind::near_spheres};
+    if (auto error = scene::search(means_, bodies, rule, filter, 0, work_.search)) return error;
     const std::span<const scene::TaskList> lists(work_.search.lists.data(), work_.search.used);
     scene::IdOrder memory{state_.nearby_memory, work_.by_id_starts};
     if (auto error = scene::order_by_ids(bodies.ids, source.count, lists, memory, state_.nearby)) {

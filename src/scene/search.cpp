@@ -15,7 +15,7 @@ constexpr std::size_t kTasksPerThread = 8;
 struct Common {
   std::uint64_t limit;
   std::uint64_t limit_of_list;  ///< a list that grows beyond this is checked first
-  bool exact;
+  SearchRule::Kind kind;
   std::atomic<std::uint64_t> kept{0};  ///< contacts in lists that had to check theirs
   std::atomic<bool> over_limit{false};
   std::atomic<bool> out_of_memory{false};
@@ -41,7 +41,7 @@ class Collector : public RoomMaker {
   void make(Candidates& list) noexcept {
     drop_filtered(list);
     if (list.count <= list.capacity / 2) return;
-    if (common_.exact && list.count > common_.limit_of_list) check(list);
+    if (limited() && list.count > common_.limit_of_list) check(list);
     if (list.count <= list.capacity / 2) return;
     if (!resize(2 * list.capacity)) {
       common_.out_of_memory = true;
@@ -63,7 +63,9 @@ class Collector : public RoomMaker {
 
   /// Leaves only true contacts in the list, and none at all once the limit is passed.
   void check(Candidates& list) noexcept {
-    kernels_.keep_hits(bodies_.spheres, bodies_.ids, checked_, list);
+    if (common_.kind == SearchRule::Kind::touching_spheres) {
+      kernels_.keep_hits(bodies_.spheres, bodies_.ids, checked_, list);
+    }
     const std::uint64_t kept = common_.kept += list.count - checked_;
     checked_ = filtered_ = list.count;
     if (kept > common_.limit) common_.over_limit = true;
@@ -76,6 +78,10 @@ class Collector : public RoomMaker {
   }
 
  private:
+  [[nodiscard]] bool limited() const noexcept {
+    return common_.kind != SearchRule::Kind::near_spheres;
+  }
+
   bool resize(std::size_t capacity) noexcept {
     Buffer larger;
     if (!larger.reserve(2 * (capacity + kSlack) * sizeof(std::uint32_t))) return false;
@@ -99,16 +105,14 @@ class Collector : public RoomMaker {
   std::size_t checked_ = 0;
 };
 
-/// Blocks of all levels in one row of numbers.
+/// Blocks of all levels and of the scanned bodies after them, in one row of numbers.
 template <class Real, class Cull>
 class Blocks {
  public:
-  explicit Blocks(const Ordered<Real, Cull>& bodies) noexcept : bodies_(bodies) {
-    for (std::size_t l = 0; l < bodies.levels; ++l) {
-      first_[l] = count_;
-      count_ += (bodies.grids[l].end - bodies.grids[l].begin + kBlockBodies - 1) / kBlockBodies;
-    }
-    first_[bodies.levels] = count_;
+  explicit Blocks(const Ordered<Real, Cull>& bodies) noexcept : levels_(bodies.levels) {
+    for (std::size_t l = 0; l < levels_; ++l) add(l, bodies.grids[l].begin, bodies.grids[l].end);
+    const auto scanned = static_cast<std::uint32_t>(bodies.bodies);
+    add(levels_, scanned, scanned + static_cast<std::uint32_t>(bodies.scanned));
   }
   [[nodiscard]] std::size_t count() const noexcept { return count_; }
 
@@ -117,17 +121,28 @@ class Blocks {
   void each(std::size_t first, std::size_t last, const Visit& visit) const {
     std::size_t level = 0;
     for (std::size_t block = first; block < last; ++block) {
-      while (block >= first_[level + 1]) ++level;
-      const Grid<Cull>& grid = bodies_.grids[level];
-      const auto offset = static_cast<std::uint32_t>((block - first_[level]) * kBlockBodies);
-      const std::uint32_t begin = grid.begin + offset;
-      visit(level, begin, std::min(grid.end, begin + static_cast<std::uint32_t>(kBlockBodies)));
+      while (block >= ranges_[level].first_block + ranges_[level].blocks) ++level;
+      const Range& range = ranges_[level];
+      const auto offset = static_cast<std::uint32_t>((block - range.first_block) * kBlockBodies);
+      const std::uint32_t begin = range.begin + offset;
+      visit(level, begin, std::min(range.end, begin + static_cast<std::uint32_t>(kBlockBodies)));
     }
   }
 
  private:
-  const Ordered<Real, Cull>& bodies_;
-  std::array<std::size_t, kRadiusClasses + 1> first_ = {};
+  struct Range {
+    std::uint32_t begin = 0, end = 0;  ///< sorted positions
+    std::size_t first_block = 0, blocks = 0;
+  };
+
+  void add(std::size_t level, std::uint32_t begin, std::uint32_t end) noexcept {
+    const std::size_t blocks = (end - begin + kBlockBodies - 1) / kBlockBodies;
+    ranges_[level] = {begin, end, count_, blocks};
+    count_ += blocks;
+  }
+
+  std::size_t levels_;
+  std::array<Range, kRadiusClasses + 1> ranges_ = {};
   std::size_t count_ = 0;
 };
 
@@ -135,7 +150,7 @@ class Blocks {
 
 template <class Real, class Cull>
 std::optional<Error> search(const Means& means, const Ordered<Real, Cull>& bodies,
-                            const PairFilter& filter, std::uint64_t limit, bool exact,
+                            const SearchRule& rule, const PairFilter& filter, std::uint64_t limit,
                             SearchMemory& memory) {
   const Kernels<Real>& kernels = means.kernels->of<Real>();
   const Blocks<Real, Cull> blocks(bodies);
@@ -144,9 +159,17 @@ std::optional<Error> search(const Means& means, const Ordered<Real, Cull>& bodie
                                 : std::min(blocks.count(), kTasksPerThread * means.threads());
   if (memory.lists.size() < tasks) memory.lists.resize(tasks);
   memory.used = tasks;
-  Common common{limit, limit / tasks, exact};
-  const SearchJob<Cull> job{bodies.grids.data(), bodies.levels, bodies.cull};
-  const auto kernel = kernels.template cull<Cull>().search;
+  Common common{limit, limit / tasks, rule.kind};
+  const auto scanned = static_cast<std::uint32_t>(bodies.bodies);
+  const SearchJob<Cull> job{bodies.grids.data(),
+                            bodies.levels,
+                            bodies.cull,
+                            scanned,
+                            scanned + static_cast<std::uint32_t>(bodies.scanned),
+                            rule.judge};
+  const auto kernel = rule.kind == SearchRule::Kind::boxes
+                          ? kernels.template cull<Cull>().search_boxes
+                          : kernels.template cull<Cull>().search;
   auto error = means.run(tasks, [&](std::size_t t) {
     TaskList& task = memory.lists[t];
     task.tests = task.dropped = 0;
@@ -168,11 +191,14 @@ std::optional<Error> search(const Means& means, const Ordered<Real, Cull>& bodie
   if (common.out_of_memory) return Error{Errc::out_of_memory, "out of memory"};
   std::uint64_t kept = 0;
   for (std::size_t t = 0; t < tasks; ++t) kept += memory.lists[t].list.count;
-  if (!exact || (kept <= limit && !common.over_limit)) return std::nullopt;
+  const bool limited = rule.kind != SearchRule::Kind::near_spheres;
+  if (!limited || (kept <= limit && !common.over_limit)) return std::nullopt;
   std::uint64_t total = 0;
   for (std::size_t t = 0; t < tasks; ++t) {
     Candidates& list = memory.lists[t].list;
-    kernels.keep_hits(bodies.spheres, bodies.ids, 0, list);
+    if (rule.kind == SearchRule::Kind::touching_spheres) {
+      kernels.keep_hits(bodies.spheres, bodies.ids, 0, list);
+    }
     total += list.count + memory.lists[t].dropped;
   }
   if (total <= limit) return std::nullopt;
@@ -184,13 +210,14 @@ std::optional<Error> search(const Means& means, const Ordered<Real, Cull>& bodie
   return std::nullopt;
 }
 
-template std::optional<Error> search(const Means&, const Ordered<float, float>&, const PairFilter&,
-                                     std::uint64_t, bool, SearchMemory&);
-template std::optional<Error> search(const Means&, const Ordered<float, double>&, const PairFilter&,
-                                     std::uint64_t, bool, SearchMemory&);
-template std::optional<Error> search(const Means&, const Ordered<double, float>&, const PairFilter&,
-                                     std::uint64_t, bool, SearchMemory&);
+template std::optional<Error> search(const Means&, const Ordered<float, float>&, const SearchRule&,
+                                     const PairFilter&, std::uint64_t, SearchMemory&);
+template std::optional<Error> search(const Means&, const Ordered<float, double>&, const SearchRule&,
+                                     const PairFilter&, std::uint64_t, SearchMemory&);
+template std::optional<Error> search(const Means&, const Ordered<double, float>&, const SearchRule&,
+                                     const PairFilter&, std::uint64_t, SearchMemory&);
 template std::optional<Error> search(const Means&, const Ordered<double, double>&,
-                                     const PairFilter&, std::uint64_t, bool, SearchMemory&);
+                                     const SearchRule&, const PairFilter&, std::uint64_t,
+                                     SearchMemory&);
 
 }  // namespace harpoon::scene

@@ -51,12 +51,22 @@ struct SearchMemory {
   std::size_t used = 0;  ///< lists of the latest search
 };
 
+/// What the ordered bodies are, and what their candidates are worth.
+struct SearchRule {
+  enum class Kind : std::uint8_t {
+    near_spheres,      ///< every candidate is kept; `limit` does not count
+    touching_spheres,  ///< candidates may turn out not to touch
+    boxes,             ///< candidates overlap
+  };
+  Kind kind = Kind::touching_spheres;
+  const BoxJudge* judge = nullptr;
+};
+
 /// Searches. When more than `limit` contacts exist, they are counted, not kept: then the sum of
-/// `dropped` over all lists is their exact number and all lists are empty. `exact` false keeps
-/// every candidate within the culling distance and counts nothing.
+/// `dropped` over all lists is their exact number and all lists are empty.
 template <class Real, class Cull>
 std::optional<Error> search(const Means& means, const Ordered<Real, Cull>& bodies,
-                            const PairFilter& filter, std::uint64_t limit, bool exact,
+                            const SearchRule& rule, const PairFilter& filter, std::uint64_t limit,
                             SearchMemory& memory);
 
 }  // namespace harpoon::scene

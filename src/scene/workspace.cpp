@@ -60,6 +60,8 @@ std::size_t Workspace::bytes() const noexcept {
                                                                &o.sorted,
                                                                &o.ids,
                                                                &o.cull,
+                                                               &state_->boxes.corners,
+                                                               &state_->boxes.high,
                                                                &state_->by_id,
                                                                &state_->by_id_starts};
   for (const scene::Buffer* buffer : buffers) sum += buffer->bytes();

@@ -6,6 +6,7 @@
 
 #include "base/executor.hpp"
 #include "harpoon/scene.hpp"
+#include "scene/boxes.hpp"
 #include "scene/order.hpp"
 #include "scene/search.hpp"
 
@@ -15,6 +16,7 @@ struct Workspace::State {
   const scene::KernelTable* kernels = nullptr;
   std::unique_ptr<Executor> executor;  ///< null for one thread
   scene::OrderMemory order;
+  scene::BoxMemory boxes;
   scene::SearchMemory search;
   scene::Buffer by_id;  ///< candidates in order of ids
   scene::Buffer by_id_starts;

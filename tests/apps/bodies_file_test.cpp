@@ -2,6 +2,7 @@
 
 #include <gtest/gtest.h>
 
+#include <algorithm>
 #include <cmath>
 
 namespace harpoon::app {
@@ -111,6 +112,27 @@ TEST(BodiesFile, ReportsProgressOfLargeFiles) {
   });
   EXPECT_GT(bodies(read).spheres.size(), 200000U);
   EXPECT_GE(calls, 3);
+}
+
+TEST(BodiesFile, TellsHowFarItHasRead) {
+  std::string csv = "x,y,z,r\n";
+  std::string json = "[";
+  for (int i = 0; i < 100000; ++i) {
+    csv += "1.25,2.5,3.125,0.5\n";
+    json += std::string(i == 0 ? "" : ",\n") + R"({"x":1,"y":2,"z":3,"r":0.5})";
+  }
+  json += "]";
+  for (const bool as_json : {false, true}) {
+    std::vector<double> parts;
+    const ReadProgress note = [&](double part) { parts.push_back(part); };
+    const FileBodies b =
+        bodies(as_json ? read_bodies_json(json, note) : read_bodies_csv(csv, note));
+    EXPECT_EQ(b.spheres.size(), 100000U);
+    ASSERT_GE(parts.size(), (as_json ? json : csv).size() >> 20);
+    EXPECT_TRUE(std::is_sorted(parts.begin(), parts.end()));
+    EXPECT_GT(parts.front(), 0);
+    EXPECT_LE(parts.back(), 1);
+  }
 }
 
 }  // namespace

@@ -3,6 +3,7 @@
 // The oracle: the single-pair collider on all pairs, and the filter rules written out again.
 
 #include <algorithm>
+#include <array>
 #include <cmath>
 #include <cstring>
 #include <span>
@@ -47,6 +48,35 @@ std::vector<BodyContactOf<Real>> brute_force(std::span<const SphereOf<Real>> sph
     }
   }
   return out;
+}
+
+/// All overlapping pairs of closed boxes in ascending order of ids. A box with a NaN or a min
+/// beyond its max is in none.
+template <class Real>
+std::vector<IndexPair> overlapping(const std::vector<std::array<Real, 6>>& boxes,
+                                   const Filters& filters = {}) {
+  const auto usable_box = [](const std::array<Real, 6>& b) {
+    return b[0] <= b[1] && b[2] <= b[3] && b[4] <= b[5];
+  };
+  std::vector<IndexPair> out;
+  for (std::uint32_t a = 0; a < boxes.size(); ++a) {
+    if (!usable_box(boxes[a])) continue;
+    for (std::uint32_t b = a + 1; b < boxes.size(); ++b) {
+      bool apart = !usable_box(boxes[b]) || !pair_counts(filters, a, b);
+      for (std::size_t k = 0; k < 6; k += 2) {
+        apart = apart || boxes[a][k] > boxes[b][k + 1] || boxes[b][k] > boxes[a][k + 1];
+      }
+      if (!apart) out.push_back({a, b});
+    }
+  }
+  return out;
+}
+
+inline std::vector<IndexPair> sorted_by_ids(std::vector<IndexPair> pairs) {
+  std::sort(pairs.begin(), pairs.end(), [](const IndexPair& a, const IndexPair& b) {
+    return a.g1 != b.g1 ? a.g1 < b.g1 : a.g2 < b.g2;
+  });
+  return pairs;
 }
 
 template <class Real>

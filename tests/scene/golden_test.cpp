@@ -4,6 +4,7 @@
 #include <gtest/gtest.h>
 
 #include <array>
+#include <limits>
 
 #include "harpoon/scene.hpp"
 #include "scene/brute_force.hpp"
@@ -53,6 +54,40 @@ TEST(SceneGolden, OneHashForAllMeans) {
       EXPECT_EQ(hash_of_world<float>(40000, true, threads, name), golden[1]) << name << threads;
       EXPECT_EQ(hash_of_world<double>(40000, false, threads, name), golden[2]) << name << threads;
       EXPECT_EQ(hash_of_world<double>(40000, true, threads, name), golden[3]) << name << threads;
+    }
+  }
+}
+
+/// The spheres' bounds, every ninth stretched, and a plane.
+template <class Real>
+std::uint64_t hash_of_boxes(bool mixed, unsigned threads, const std::string& instruction_set) {
+  const auto infinity = std::numeric_limits<Real>::infinity();
+  std::vector<std::array<Real, 6>> boxes = {{-infinity, infinity, -infinity, infinity, 0, 1}};
+  for (const auto& s : world<Real>(20000, mixed)) {
+    const Real longer = boxes.size() % 9 == 0 ? 4 : 1;
+    boxes.push_back({s.x - s.r, s.x + longer * s.r, s.y - s.r, s.y + s.r, s.z - s.r, s.z + s.r});
+  }
+  auto workspace = Workspace::make({.threads = threads, .instruction_set = instruction_set});
+  EXPECT_TRUE(workspace.ok());
+  if (!workspace) return 0;
+  std::vector<IndexPair> out(200000);
+  const BoundsOf<Real> bounds(boxes[0].data(), boxes.size());
+  const auto report = overlap_pairs(*workspace, bounds, std::span(out));
+  EXPECT_TRUE(report.ok());
+  if (!report) return 0;
+  EXPECT_GT(report->contacts, 1000U);
+  return hash_of(std::span<const IndexPair>(out).first(report->contacts));
+}
+
+TEST(SceneGolden, OneHashOfPairsForAllMeans) {
+  const std::array<std::uint64_t, 4> golden = {6609216579768940108U, 15106525808177617148U,
+                                               6609216579768940108U, 15106525808177617148U};
+  for (const unsigned threads : {1U, 2U, 3U, 8U}) {
+    for (const std::string& name : cpu_instruction_sets()) {
+      EXPECT_EQ(hash_of_boxes<float>(false, threads, name), golden[0]) << name << threads;
+      EXPECT_EQ(hash_of_boxes<float>(true, threads, name), golden[1]) << name << threads;
+      EXPECT_EQ(hash_of_boxes<double>(false, threads, name), golden[2]) << name << threads;
+      EXPECT_EQ(hash_of_boxes<double>(true, threads, name), golden[3]) << name << threads;
     }
   }
 }

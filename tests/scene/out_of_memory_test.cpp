@@ -136,6 +136,25 @@ TEST(OutOfMemory, AWorkspaceSurvives) {
   EXPECT_TRUE(same_bits(sorted_by_ids(out), expected));
 }
 
+TEST(OutOfMemory, EveryAllocationOfOverlapPairs) {
+  std::array<int, kBoxKinds> seen = {};
+  const auto boxes = boxes_around(some_world(), 3, 20, seen);
+  const auto expected = overlapping(boxes);
+  std::vector<IndexPair> out(expected.size());
+  const Bounds bounds(boxes[0].data(), boxes.size());
+  for (const ContactOrder order : {ContactOrder::space, ContactOrder::ids}) {
+    auto workspace = Workspace::make({.threads = 1});
+    ASSERT_TRUE(workspace.ok());
+    const int allocations = fail_everywhere(
+        [&] { return code_of(overlap_pairs(*workspace, bounds, std::span(out), order)); });
+    EXPECT_GT(allocations, 8);
+    const auto sorted = sorted_by_ids(out);
+    EXPECT_TRUE(std::equal(
+        sorted.begin(), sorted.end(), expected.begin(), expected.end(),
+        [](const IndexPair& a, const IndexPair& b) { return a.g1 == b.g1 && a.g2 == b.g2; }));
+  }
+}
+
 TEST(OutOfMemory, AScenePersists) {
   const auto spheres = some_world();
   const auto expected = brute_force<float>(spheres);

@@ -153,4 +153,68 @@ class WorldMaker {
   int lattice_width_ = 2, lattice_mode_ = 0, line_mode_ = 0, extreme_mode_ = 0;
 };
 
+/// A box as the scene takes it: min x, max x, min y, max y, min z, max z.
+template <class Real>
+using Box = std::array<Real, 6>;
+
+/// What was done to the boxes of a world beyond bounding its spheres.
+enum class BoxKind : std::uint8_t { cube, long_side, flat, touching, infinite, huge, invalid };
+inline constexpr std::size_t kBoxKinds = 7;
+
+/// Boxes around the spheres of a world. `odd` of 100 are stretched, flattened, snapped to numbers
+/// that others share, made infinite, huge or invalid; `seen` counts the kinds.
+template <class Real>
+std::vector<Box<Real>> boxes_around(const std::vector<SphereOf<Real>>& spheres, std::uint64_t seed,
+                                    int odd, std::array<int, kBoxKinds>& seen) {
+  const Real infinity = std::numeric_limits<Real>::infinity();
+  Dice dice(seed);
+  std::vector<Box<Real>> out;
+  for (const SphereOf<Real>& s : spheres) {
+    Box<Real> b = {s.x - s.r, s.x + s.r, s.y - s.r, s.y + s.r, s.z - s.r, s.z + s.r};
+    const auto axis = static_cast<std::size_t>(2 * dice.integer(0, 2));
+    auto kind = BoxKind::cube;
+    if (dice.integer(1, 100) <= odd) {
+      kind = static_cast<BoxKind>(dice.integer(1, 4));
+      if (dice.one_in(20)) kind = dice.one_in(2) ? BoxKind::huge : BoxKind::invalid;
+      if (kind == BoxKind::infinite && !dice.one_in(10)) kind = BoxKind::long_side;
+    }
+    switch (kind) {
+      case BoxKind::cube:
+        break;
+      case BoxKind::long_side:
+        b[axis] -= s.r * static_cast<Real>(dice.uniform(0, 30));
+        b[axis + 1] += s.r * static_cast<Real>(dice.uniform(0, 30));
+        break;
+      case BoxKind::flat:
+        b[axis] = b[axis + 1];
+        break;
+      case BoxKind::touching: {
+        // A face of an earlier box becomes the opposite one of this box.
+        const auto& other = out[static_cast<std::size_t>(
+            out.empty() ? 0 : dice.integer(0, static_cast<int>(out.size()) - 1))];
+        if (!out.empty() && other[axis + 1] <= b[axis + 1]) b[axis] = other[axis + 1];
+        break;
+      }
+      case BoxKind::infinite:
+        if (dice.one_in(2)) b[axis] = -infinity;
+        if (dice.one_in(2)) b[axis + 1] = infinity;
+        if (dice.one_in(8)) b[axis] = b[axis + 1];
+        break;
+      case BoxKind::huge:
+        for (std::size_t k = 0; k < 6; ++k) b[k] += (k % 2 == 0 ? -1000 : 1000) * s.r;
+        break;
+      case BoxKind::invalid:
+        if (dice.one_in(2)) {
+          b[axis] = std::numeric_limits<Real>::quiet_NaN();
+        } else {
+          b[axis] = b[axis + 1] + 1 + std::abs(b[axis + 1]);
+        }
+        break;
+    }
+    ++seen[static_cast<std::size_t>(kind)];
+    out.push_back(b);
+  }
+  return out;
+}
+
 }  // namespace harpoon::testing

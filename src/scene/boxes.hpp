@@ -1,0 +1,60 @@
+#pragma once
+
+// Boxes in the terms of the order and the search: a box is sorted like a sphere that sits at its
+// lowest corner and whose radius is half of its longest side. Two boxes that overlap are then
+// within reach of each other, cell for cell. Boxes that would spoil the grid, infinite or huge
+// beside the others, stay out of it and are scanned.
+
+#include <cstdint>
+#include <optional>
+#include <vector>
+
+#include "harpoon/scene.hpp"
+#include "scene/order.hpp"
+#include "scene/search.hpp"
+
+namespace harpoon::scene {
+
+/// The caller's boxes.
+template <class Real>
+struct BoxSource {
+  const Real* first;
+  std::size_t stride_bytes;
+  std::size_t count;
+
+  [[nodiscard]] const Real* operator[](std::size_t i) const noexcept {
+    return reinterpret_cast<const Real*>(reinterpret_cast<const char*>(first) + i * stride_bytes);
+  }
+};
+
+/// What ordering boxes needs and leaves behind.
+struct BoxMemory {
+  Buffer corners;  ///< a sphere for each box, by id
+  Buffer high;     ///< highest corners in sorted order, one array for each axis
+  std::vector<std::uint32_t> invalid, scanned;
+};
+
+/// Boxes in search order, in culling coordinates.
+template <class Real, class Cull>
+struct OrderedBoxes : BoxJudge {
+  Ordered<Cull, Cull> bodies;
+  BoxSource<Real> source;
+  /// The rounding to culling coordinates may make two boxes touch: then the search asks the judge.
+  static constexpr bool kNeedsJudge = sizeof(Cull) < sizeof(Real);
+};
+
+/// What became of an attempt to order.
+enum class BoxOrder : std::uint8_t {
+  done,
+  nothing,       ///< no valid box
+  needs_double,  ///< float does not resolve these boxes; never with Cull = double
+};
+
+/// Surveys and orders the boxes; ids of invalid ones are appended to `excluded`, unless another
+/// attempt is needed. Throws std::bad_alloc only.
+template <class Real, class Cull>
+Result<BoxOrder> order_boxes(const Means& means, const BoxSource<Real>& source, BoxMemory& memory,
+                             OrderMemory& order_memory, std::vector<std::uint32_t>& excluded,
+                             OrderedBoxes<Real, Cull>& out);
+
+}  // namespace harpoon::scene

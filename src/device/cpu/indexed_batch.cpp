@@ -10,7 +10,7 @@
 namespace harpoon::cpu {
 namespace {
 
-/// Batches up to this size run on the stack of the calling thread.
+/// Batches up to this size stay on the calling thread.
 constexpr std::size_t kSmallBatch = 1024;
 /// Pairs of one task.
 constexpr std::size_t kBlock = 8192;
@@ -28,13 +28,10 @@ void fill(const KernelsOf<Real>& kernels, const IndexedBatch<Real>& batch, const
 }
 
 template <class Real>
-std::uint64_t run_small(const KernelsOf<Real>& kernels, const IndexedBatch<Real>& batch) {
-  std::uint32_t hits[kSmallBatch];
+std::uint64_t run_here(const KernelsOf<Real>& kernels, const IndexedBatch<Real>& batch) {
   const FloatEnvironment environment;
-  const std::size_t count =
-      kernels.find_hits(batch.spheres.data(), batch.pairs.data(), batch.pairs.size(), hits);
-  fill(kernels, batch, batch.pairs.data(), hits, count, 0);
-  return count;
+  return kernels.collide_hits(batch.spheres.data(), batch.pairs.data(), batch.pairs.size(),
+                              batch.contacts.data(), batch.contacts.size());
 }
 
 /// Windows of blocks: in each, all blocks are searched, then all are written to their places.
@@ -93,8 +90,8 @@ Result<Outcome> run_indexed(const Kernels& kernels, Executor& executor,
     return first_index_error(batch.pairs, batch.spheres.size());
   }
   std::uint64_t hits = 0;
-  if (total <= kSmallBatch) {
-    hits = run_small(kernels.of<Real>(), batch);
+  if (total <= kSmallBatch || executor.threads() == 1) {
+    hits = run_here(kernels.of<Real>(), batch);
   } else {
     const Result<std::uint64_t> found = run_windows(kernels.of<Real>(), executor, batch);
     if (!found) return found.error();

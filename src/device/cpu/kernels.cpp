@@ -235,53 +235,100 @@ HWY_INLINE void copy_sphere(const SphereOf<Real>& from, SphereOf<Real>& to) {
 
 /// Which of one vector of pairs touch, one bit a lane (see pair_of_lane).
 template <class Real>
-HWY_INLINE std::uint64_t hit_lanes(const SpherePairOf<Real>* pairs) {
-  const Tag<Real> d;
-  Args<Real> s1;
-  Args<Real> s2;
-  load_pairs(pairs, s1, s2);
-  const auto hit = simd::touches(simd::separation(s1, s2));
+HWY_INLINE std::uint64_t hit_lanes(const simd::Separation<Number<Real>>& separation) {
   std::uint8_t bytes[kMaxLanes / 8 + sizeof(std::uint64_t)] = {};
-  hn::StoreMaskBits(d, hit.m, bytes);
+  hn::StoreMaskBits(Tag<Real>(), simd::touches(separation).m, bytes);
   std::uint64_t bits;
   std::memcpy(&bits, bytes, sizeof bits);
   return bits;
 }
 
+/// Calls `use(lane)` for every bit that is set, ascending.
+template <class Use>
+HWY_INLINE void for_each_lane(std::uint64_t bits, const Use& use) {
+  for (; bits != 0; bits &= bits - 1) use(hwy::Num0BitsBelowLS1Bit_Nonzero64(bits));
+}
+
+template <class Real>
+HWY_INLINE void copy_contact(const ContactOf<Real>& from, const IndexPair& pair,
+                             BodyContactOf<Real>& to) {
+  std::memcpy(static_cast<void*>(&to), &from, 7 * sizeof(Real));
+  to.g1 = pair.g1;
+  to.g2 = pair.g2;
+}
+
+/// Where in memory the pair of each lane lies, from the first of its vector.
+template <class Real>
+struct Slots {
+  HWY_INLINE Slots() {
+    for (std::size_t lane = 0; lane < hn::Lanes(Tag<Real>()); ++lane) {
+      of_lane[lane] = pair_of_lane<Real>(lane);
+    }
+  }
+  std::size_t of_lane[kMaxLanes];
+};
+
 /// Copies `count` pairs so that lane k of a vector of them is pair k.
 template <class Real>
 HWY_INLINE void gather_in_lane_order(const SphereOf<Real>* spheres, const IndexPair* pairs,
-                                     std::size_t count, SpherePairOf<Real>* block) {
+                                     std::size_t count, const Slots<Real>& slots,
+                                     SpherePairOf<Real>* block) {
   const std::size_t lanes = hn::Lanes(Tag<Real>());
-  std::size_t slot[kMaxLanes];
-  for (std::size_t lane = 0; lane < lanes; ++lane) slot[lane] = pair_of_lane<Real>(lane);
   for (std::size_t first = 0; first < count; first += lanes) {
     const std::size_t used = std::min(lanes, count - first);
     for (std::size_t lane = 0; lane < used; ++lane) {
-      SpherePairOf<Real>& to = block[first + slot[lane]];
+      SpherePairOf<Real>& to = block[first + slots.of_lane[lane]];
       copy_sphere(spheres[pairs[first + lane].g1], to.s1);
       copy_sphere(spheres[pairs[first + lane].g2], to.s2);
     }
     for (std::size_t lane = used; lane < lanes; ++lane) {
-      pad_with_misses(block + first + slot[lane], block + first + slot[lane] + 1);
+      SpherePairOf<Real>& to = block[first + slots.of_lane[lane]];
+      pad_with_misses(&to, &to + 1);
     }
   }
+}
+
+template <class Real>
+std::size_t collide_hits(const SphereOf<Real>* spheres, const IndexPair* pairs, std::size_t count,
+                         BodyContactOf<Real>* contacts, std::size_t room) {
+  const std::size_t lanes = hn::Lanes(Tag<Real>());
+  const Slots<Real> slots;
+  HWY_ALIGN SpherePairOf<Real> block[kGatherBlock + kMaxLanes];
+  ContactOf<Real> out[kMaxLanes];
+  std::size_t found = 0;
+  for (std::size_t base = 0; base < count; base += kGatherBlock) {
+    const std::size_t size = std::min(kGatherBlock, count - base);
+    gather_in_lane_order(spheres, pairs + base, size, slots, block);
+    for (std::size_t k = 0; k < size; k += lanes) {
+      const Halfway<Real> halfway = begin_vector(block + k);
+      const std::uint64_t bits = hit_lanes<Real>(halfway.separation);
+      if (bits == 0) continue;
+      finish_vector(halfway, out);
+      for_each_lane(bits, [&](std::size_t lane) HWY_ATTR {
+        if (found < room) {
+          copy_contact(out[slots.of_lane[lane]], pairs[base + k + lane], contacts[found]);
+        }
+        ++found;
+      });
+    }
+  }
+  return found;
 }
 
 template <class Real>
 std::size_t find_hits(const SphereOf<Real>* spheres, const IndexPair* pairs, std::size_t count,
                       std::uint32_t* hits) {
   const std::size_t lanes = hn::Lanes(Tag<Real>());
+  const Slots<Real> slots;
   HWY_ALIGN SpherePairOf<Real> block[kGatherBlock + kMaxLanes];
   std::size_t found = 0;
   for (std::size_t base = 0; base < count; base += kGatherBlock) {
     const std::size_t size = std::min(kGatherBlock, count - base);
-    gather_in_lane_order(spheres, pairs + base, size, block);
+    gather_in_lane_order(spheres, pairs + base, size, slots, block);
     for (std::size_t k = 0; k < size; k += lanes) {
-      for (std::uint64_t bits = hit_lanes(block + k); bits != 0; bits &= bits - 1) {
-        const std::size_t lane = hwy::Num0BitsBelowLS1Bit_Nonzero64(bits);
-        hits[found++] = static_cast<std::uint32_t>(base + k + lane);
-      }
+      for_each_lane(hit_lanes<Real>(begin_vector(block + k).separation),
+                    [&](std::size_t lane)
+                        HWY_ATTR { hits[found++] = static_cast<std::uint32_t>(base + k + lane); });
     }
   }
   return found;
@@ -301,10 +348,7 @@ void fill_hits(const SphereOf<Real>* spheres, const IndexPair* pairs, const std:
     }
     pairs_cached(in, size, out);
     for (std::size_t k = 0; k < size; ++k) {
-      BodyContactOf<Real>& to = contacts[base + k];
-      std::memcpy(static_cast<void*>(&to), &out[k], 7 * sizeof(Real));
-      to.g1 = pairs[hits[base + k]].g1;
-      to.g2 = pairs[hits[base + k]].g2;
+      copy_contact(out[k], pairs[hits[base + k]], contacts[base + k]);
     }
   }
 }
@@ -318,8 +362,8 @@ std::uint32_t max_index(const IndexPair* pairs, std::size_t count) {
 }
 
 template <class Real>
-constexpr KernelsOf<Real> kKernelsOf = {collide_pairs<Real>, collide_arrays<Real>, find_hits<Real>,
-                                        fill_hits<Real>};
+constexpr KernelsOf<Real> kKernelsOf = {collide_pairs<Real>, collide_arrays<Real>,
+                                        collide_hits<Real>, find_hits<Real>, fill_hits<Real>};
 
 const Kernels* get_kernels() {
   static constexpr Kernels kKernels = {kKernelsOf<float>, kKernelsOf<double>, max_index};

@@ -22,8 +22,13 @@ struct KernelsOf {
   /// The same on separate arrays, for the records [begin, end).
   std::size_t (*arrays)(const SpherePairArraysOf<Real>& pairs, std::size_t begin, std::size_t end,
                         const ContactArraysOf<Real>& contacts);
-  /// Writes the positions in pairs[0, count) of the pairs that touch, ascending, to `hits`, which
-  /// has room for `count`; returns their number.
+  /// Writes the contacts of the pairs that touch, in their order, as far as there is `room`;
+  /// returns the number of all hits.
+  std::size_t (*collide_hits)(const SphereOf<Real>* spheres, const IndexPair* pairs,
+                              std::size_t count, BodyContactOf<Real>* contacts, std::size_t room);
+  /// For threads, which must know their places in the output first: writes the positions in
+  /// pairs[0, count) of the pairs that touch, ascending, to `hits`, which has room for `count`;
+  /// returns their number.
   std::size_t (*find_hits)(const SphereOf<Real>* spheres, const IndexPair* pairs, std::size_t count,
                            std::uint32_t* hits);
   /// Writes the contacts of the `count` pairs named by `hits`, all of which touch.

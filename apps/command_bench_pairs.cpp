@@ -91,21 +91,43 @@ void require_outputs(const PairsOptions& options) {
   }
 }
 
+// Simulating so many pairs takes longer than anybody waits who did not ask for it.
+std::vector<std::string> leave_out_slow(const PairsOptions& options, bench::PairsPlan& plan) {
+  constexpr std::size_t kMostSimulated = 1000000;
+  if (options.device != "all" || plan.counts.back() <= kMostSimulated) {
+    return {};
+  }
+  std::vector<std::string> notes;
+  std::erase_if(plan.devices, [&](const bench::NamedDevice& device) {
+    const bool slow = device.device->capabilities().modelled;
+    if (slow) {
+      notes.push_back(
+          fmt::format("Device {} is simulated and left out above {} pairs; ask for it "
+                      "with --device {}.",
+                      device.name, kMostSimulated, device.name));
+    }
+    return slow;
+  });
+  return notes;
+}
+
 void measure(const Context& context, const PairsOptions& options) {
   bench::PairsPlan plan = to_plan(options);
   require_memory(plan, options);
   require_outputs(options);
   plan.devices = open_devices(options.device, options.threads);
+  const std::vector<std::string> left_out = leave_out_slow(options, plan);
   if (options.copy) {
     plan.copy_threads = thread_counts(options.threads);
   }
-  const auto outcome = [&] {
+  auto outcome = [&] {
     Progress progress(context.terminal);
     progress.show(0, "recording pairs");
     const auto share = [&](double done) { progress.show(done, "measuring"); };
     return value_or_throw(bench::run_pairs(plan, share, is_interrupted));
   }();
   throw_if_interrupted();
+  outcome.notes.insert(outcome.notes.end(), left_out.begin(), left_out.end());
 
   bench::ResultSet results{bench::describe_machine(),
                            bench::build_commit(),

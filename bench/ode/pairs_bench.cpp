@@ -145,11 +145,22 @@ class Arena {
 // Figure 5's series, one run of the world per round.
 class Figure5Series {
  public:
-  explicit Figure5Series(const PairsPlan& plan) : plan_(plan), totals_(plan.counts.size()) {}
+  explicit Figure5Series(const PairsPlan& plan)
+      : plan_(plan), counts_(counts_of(plan)), totals_(counts_.size()) {}
+
+  /// Each collision costs a run of the world, so only batches of the paper's size are timed.
+  static std::vector<std::size_t> counts_of(const PairsPlan& plan) {
+    if (!plan.figure5 || plan.format == Format::indexed || plan.type == PairType::grazing) {
+      return {};
+    }
+    return {plan.counts.begin(),
+            std::upper_bound(plan.counts.begin(), plan.counts.end(), kMostRecordedPairs)};
+  }
+
+  [[nodiscard]] bool applies() const { return !counts_.empty(); }
 
   Result<bool> round(const Interrupted& interrupted) {
-    const Result<Figure5Run> run =
-        time_as_figure5(plan_.diamond, plan_.type, plan_.counts, interrupted);
+    const Result<Figure5Run> run = time_as_figure5(plan_.diamond, plan_.type, counts_, interrupted);
     if (!run) {
       return run.error();
     }
@@ -163,7 +174,7 @@ class Figure5Series {
     Series series{{kOdeFigure5Device, "f64", 1, "geoms", false, 128}, {}};
     for (std::size_t i = 0; i < totals_.size(); ++i) {
       if (!totals_[i].empty()) {
-        series.points.push_back({plan_.counts[i], summarize(totals_[i]),
+        series.points.push_back({counts_[i], summarize(totals_[i]),
                                  totals_[i].size() * std::uint64_t{kFigure5Executions}});
       }
     }
@@ -172,6 +183,7 @@ class Figure5Series {
 
  private:
   const PairsPlan& plan_;
+  std::vector<std::size_t> counts_;
   std::vector<std::vector<double>> totals_;
 };
 
@@ -179,10 +191,6 @@ bool out_of_time(const PairsPlan& plan, unsigned rounds_done, double start_ns) {
   constexpr unsigned kLeastRounds = 3;
   return plan.time_limit_s > 0 && rounds_done >= kLeastRounds &&
          now_ns() - start_ns > plan.time_limit_s * 1e9;
-}
-
-bool figure5_applies(const PairsPlan& plan) {
-  return plan.figure5 && plan.format != Format::indexed && plan.type != PairType::grazing;
 }
 
 }  // namespace
@@ -217,7 +225,7 @@ Result<PairsOutcome> run_pairs(const PairsPlan& plan, const ShareDone& share_don
     if (out_of_time(plan, r, start_ns)) {
       break;
     }
-    if (figure5_applies(plan)) {
+    if (figure5.applies()) {
       if (const Result<bool> done = figure5.round(interrupted); !done) {
         return done.error();
       }
@@ -230,7 +238,7 @@ Result<PairsOutcome> run_pairs(const PairsPlan& plan, const ShareDone& share_don
     }
   }
   outcome.series = robin.series();
-  if (figure5_applies(plan)) {
+  if (figure5.applies()) {
     outcome.series.insert(outcome.series.begin() + 1, figure5.series());
   }
   outcome.copy_series = copies.series();

@@ -57,7 +57,7 @@ void expect_prefix(const Scene<Real>& scene, const std::vector<BodyContactOf<Rea
 
 TYPED_TEST(Indexed, WritesTheHitsInPairOrder) {
   for (const std::string& name : cpu_instruction_sets()) {
-    for (const std::size_t pairs : {0, 1, 7, 8, 17, 1000, 1024, 1025, 8192, 200003}) {
+    for (const std::size_t pairs : {0, 1, 7, 8, 17, 1000, 1024, 1025, 8192, 30003, 200003}) {
       const auto scene = random_scene<TypeParam>(pairs, 500, pairs);
       CpuOptions options;
       options.instruction_set = name;
@@ -79,8 +79,10 @@ TYPED_TEST(Indexed, WritesTheHitsInPairOrder) {
 }
 
 TYPED_TEST(Indexed, AFullOutputHoldsTheFirstHitsAndTheErrorSaysHowManyThereAre) {
-  const auto device = make_cpu_device();
-  for (const std::size_t pairs : {100, 100000}) {
+  for (const std::size_t pairs : {100, 100000, 100001}) {
+    CpuOptions options;
+    options.threads = 1 + static_cast<unsigned>(pairs % 2);
+    const auto device = make_cpu_device(options);
     const auto scene = random_scene<TypeParam>(pairs, 300, pairs);
     for (const std::size_t room :
          {std::size_t{0}, scene.expected.size() / 2, scene.expected.size() - 1}) {

@@ -1,5 +1,6 @@
 #include "base/executor.hpp"
 
+#include <tbb/global_control.h>
 #include <tbb/parallel_for.h>
 #include <tbb/task_arena.h>
 
@@ -78,7 +79,8 @@ std::optional<Error> run_injected(const ParallelFor& parallel_for, std::size_t t
 
 class Executor::Arena {
  public:
-  explicit Arena(unsigned threads) : arena_(static_cast<int>(threads)) {}
+  explicit Arena(unsigned threads)
+      : arena_(static_cast<int>(std::min<std::size_t>(threads, most_threads()))) {}
 
   void run(std::size_t tasks, const std::function<void(std::size_t)>& body) {
     char begin = 0;
@@ -99,6 +101,11 @@ class Executor::Arena {
   }
 
  private:
+  /// Asked for more, oneTBB would print a warning and give no more.
+  static std::size_t most_threads() {
+    return tbb::global_control::active_value(tbb::global_control::max_allowed_parallelism);
+  }
+
   tbb::task_arena arena_;
 };
 

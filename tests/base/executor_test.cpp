@@ -9,6 +9,14 @@
 namespace harpoon {
 namespace {
 
+// oneTBB warns once in a process, so this test comes first.
+TEST(Executor, MoreThreadsThanTheMachineHasPrintNothing) {
+  ::testing::internal::CaptureStderr();
+  Executor executor(1024, {});
+  EXPECT_FALSE(executor.run(5000, [](std::size_t) {}));
+  EXPECT_EQ(::testing::internal::GetCapturedStderr(), "");
+}
+
 TEST(Executor, RunsEveryTaskOnce) {
   for (const unsigned threads : {1u, 2u, 7u}) {
     Executor executor(threads, {});

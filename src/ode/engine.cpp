@@ -1,0 +1,665 @@
+#include "ode/engine.hpp"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <chrono>
+#include <optional>
+#include <unordered_map>
+#include <utility>
+
+#include "ode/float_mode.hpp"
+#include "ode/frame.hpp"
+#include "ode/pair_search.hpp"
+#include "ode/replay.hpp"
+#include "ode/scan.hpp"
+#include "ode/space_table.hpp"
+#include "ode/verify.hpp"
+
+namespace harpoon::ode {
+namespace {
+
+/// A different address for each thread.
+const void* this_thread() {
+  static thread_local char token = 0;
+  return &token;
+}
+
+/// The calling thread in a call on a record. Other threads, which libode forbids, are kept out.
+template <class Record>
+class Entry {
+ public:
+  explicit Entry(Record& record) : record_(record) {
+    const void* nobody = nullptr;
+    entered_ =
+        record.owner.compare_exchange_strong(nobody, this_thread()) || nobody == this_thread();
+    if (entered_) ++record.calls_under_way;
+  }
+  ~Entry() {
+    if (entered_ && --record_.calls_under_way == 0) record_.owner.store(nullptr);
+  }
+  Entry(const Entry&) = delete;
+  Entry& operator=(const Entry&) = delete;
+
+  [[nodiscard]] bool entered() const { return entered_; }
+  /// No replay further up the stack reads the record's arrays.
+  [[nodiscard]] bool alone() const { return record_.calls_under_way == 1; }
+
+ private:
+  Record& record_;
+  bool entered_;
+};
+
+/// Stands for the test of a user class that is not known.
+int is_near(dxGeom*, dxGeom*, void*) {
+  return 1;
+}
+
+/// libode's own traversal, its pairs noted down while the callback sees them.
+struct Recorder {
+  std::vector<GeomPair>& pairs;
+  void* data;
+  NearCallback* callback;
+
+  static void near(void* recorder, dxGeom* o1, dxGeom* o2) {
+    Recorder& self = *static_cast<Recorder*>(recorder);
+    self.pairs.push_back({o1, o2});
+    self.callback(self.data, o1, o2);
+  }
+};
+
+template <class Real>
+class EngineOf final : public Engine {
+ public:
+  EngineOf(const LibodeOf<Real>& ode, EngineParts parts)
+      : ode_(ode), parts_(std::move(parts)), options_(parts_.options) {
+    source_.device = parts_.device.get();
+    source_.single_precision = options_.single_precision_contacts;
+    source_.whole_frames = parts_.device->name() != "cpu";
+    // Where classes are not reported either, every user class may ask.
+    if (!options_.changes_are_reported)
+      std::fill_n(user_tests_, geom_class::kUserClasses, &is_near);
+  }
+
+  void space_collide(dxSpace* space, void* data, NearCallback* callback) override;
+  void space_collide2(dxGeom* o1, dxGeom* o2, void* data, NearCallback* callback) override;
+  int collide(dxGeom* o1, dxGeom* o2, int flags, void* contact, int skip) override;
+
+  void moved(dxGeom* geom) override;
+  void filters_changed(dxGeom* geom) override;
+  void toggled(dxGeom* geom, bool enabled) override;
+  void added(dxSpace* space) override;
+  void removed(dxSpace* space, dxGeom* geom) override;
+  void destroying(dxGeom* geom) override;
+  void levels_changed(dxSpace* space) override;
+  void sap_created(dxSpace* space, int axis_order) override;
+  void class_created(int number, AabbTest* test) override;
+  void collider_overridden(int class1, int class2) override;
+  void closed() override;
+
+  [[nodiscard]] const Statistics& statistics() const override { return statistics_; }
+  [[nodiscard]] std::string report() const override {
+    return to_line(statistics_, parts_.device->name());
+  }
+
+ private:
+  using Record = SpaceRecord<Real>;
+
+  [[nodiscard]] int kind_of(dxGeom* geom) const { return ode_.geom_get_class(geom); }
+  [[nodiscard]] int min_geoms(int kind) const;
+  Record* find_or_make(dxSpace* space, int kind);
+  void note_changes(Record& record) const;
+  void refresh_mirror(Record& record);
+  [[nodiscard]] bool refresh_pairs(Record& record);
+  Result<typename PairSearch<Real>::Found> find_pairs(Record& record);
+  void name_strays(Record& record);
+  void intern_recorded(Record& record) const;
+  [[nodiscard]] bool answer_in_order(Record& record, void* data, NearCallback* callback);
+  void record_or_replay(Record& record, void* data, NearCallback* callback);
+  void replay_record(Record& record, LiveCheck live, void* data, NearCallback* callback);
+  void verify_pairs(const Record& record);
+  [[nodiscard]] bool answer_scan(dxSpace* scanned, dxGeom* other, bool scanned_first,
+                                 const Rerun& rerun, void* data, NearCallback* callback);
+  [[nodiscard]] std::optional<std::vector<GeomPair>> scan(dxSpace* scanned, dxGeom* other,
+                                                          bool scanned_first);
+  [[nodiscard]] bool spheres_are_ours();
+  int answer_contact(Frame<Real>& frame, int flags, ContactGeomOf<Real>& contact, int skip);
+  void leave_to_stock(dxSpace* space, void* data, NearCallback* callback) {
+    Statistics::add(statistics_.left_to_stock, 1);
+    ode_.space_collide(space, data, callback);
+  }
+  [[nodiscard]] bool asks_unknown_tests(const Mirror<Real>& mirror) const {
+    return !options_.changes_are_reported && (mirror.all_traits & kHasAabbTest) != 0;
+  }
+  void warn(const std::string& line) const {
+    if (parts_.log) parts_.log(LogLevel::warning, line);
+  }
+
+  const LibodeOf<Real> ode_;
+  EngineParts parts_;
+  const Options& options_;
+  Statistics statistics_;
+  SpaceTable<Record> table_;
+  UserTests user_tests_{};
+  ContactSource source_;
+  enum class Agreement { unknown, yes, no };
+  std::atomic<Agreement> spheres_{Agreement::unknown};
+};
+
+/// Adds the time of its life to a counter.
+class Stopwatch {
+ public:
+  Stopwatch(bool on, Statistics::Counter& counter) : counter_(on ? &counter : nullptr) {
+    if (on) begin_ = std::chrono::steady_clock::now();
+  }
+  ~Stopwatch() {
+    if (counter_ == nullptr) return;
+    const auto time = std::chrono::steady_clock::now() - begin_;
+    Statistics::add(*counter_,
+                    static_cast<std::uint64_t>(
+                        std::chrono::duration_cast<std::chrono::nanoseconds>(time).count()));
+  }
+  Stopwatch(const Stopwatch&) = delete;
+  Stopwatch& operator=(const Stopwatch&) = delete;
+
+ private:
+  Statistics::Counter* counter_;
+  std::chrono::steady_clock::time_point begin_;
+};
+
+template <class Real>
+int EngineOf<Real>::min_geoms(int kind) const {
+  switch (kind) {
+    case geom_class::kSimpleSpace:
+      return options_.min_geoms_simple;
+    case geom_class::kHashSpace:
+      return options_.min_geoms_hash;
+    default:
+      return options_.min_geoms_quadtree;
+  }
+}
+
+template <class Real>
+SpaceRecord<Real>* EngineOf<Real>::find_or_make(dxSpace* space, int kind) {
+  Record* record = table_.empty() ? nullptr : table_.find(space);
+  if (record != nullptr && record->kind == kind) return record;
+  Statistics::add(statistics_.spaces, 1);
+  return table_.put(space, std::make_shared<Record>(space, kind));
+}
+
+/// Takes note of what was reported, or of everything where nothing is.
+template <class Real>
+void EngineOf<Real>::note_changes(Record& record) const {
+  const int count = ode_.space_get_num_geoms(record.space);
+  const bool reported = record.changed.exchange(false, std::memory_order_relaxed);
+  if (!reported && options_.changes_are_reported && count == record.count) return;
+  record.count = count;
+  record.mirror_valid = record.pairs_valid = record.recorded_valid = false;
+}
+
+template <class Real>
+void EngineOf<Real>::refresh_mirror(Record& record) {
+  if (record.mirror_valid) return;
+  record.contacts.reset();
+  if (record.kind == geom_class::kSapSpace) {
+    record.mirror.clean_and_read(ode_, record.space, record.count, user_tests_);
+  } else {
+    record.mirror.read(ode_, record.space, record.count, user_tests_);
+  }
+  record.mirror_valid = true;
+}
+
+template <class Real>
+void EngineOf<Real>::name_strays(Record& record) {
+  const std::span<const std::uint8_t> stray = record.search->stray();
+  for (std::uint32_t i = 0; i < record.mirror.size(); ++i) {
+    dxGeom* const geom = record.mirror.geoms[i];
+    if (stray[i] == 0 ||
+        std::find(record.named.begin(), record.named.end(), geom) != record.named.end()) {
+      continue;
+    }
+    record.named.push_back(geom);
+    const Real* const box = record.mirror.bounds[i].v;
+    warn(fmt::format(
+        "geom {} of hash space {} lies where libode would abort: x {} to {}, y {} to "
+        "{}, z {} to {}; {}",
+        fmt::ptr(geom), fmt::ptr(record.space), box[0], box[1], box[2], box[3], box[4], box[5],
+        (record.mirror.traits[i] & kIsNan) != 0 ? "it touches nothing"
+                                                : "it is compared with every geom"));
+  }
+}
+
+template <class Real>
+Result<typename PairSearch<Real>::Found> EngineOf<Real>::find_pairs(Record& record) {
+  if (record.kind == geom_class::kSimpleSpace) {
+    return record.search->find_simple(record.mirror, record.pairs);
+  }
+  if (record.kind == geom_class::kSapSpace) {
+    return record.search->find_sap(record.mirror, *record.sap, record.pairs);
+  }
+  int min_level = 0, max_level = 0;
+  ode_.hash_space_get_levels(record.space, &min_level, &max_level);
+  return record.search->find_hash(record.mirror, min_level, max_level, options_.policy,
+                                  record.pairs);
+}
+
+/// False when the call is libode's after all.
+template <class Real>
+bool EngineOf<Real>::refresh_pairs(Record& record) {
+  if (record.pairs_valid) return true;
+  refresh_mirror(record);
+  if (asks_unknown_tests(record.mirror)) return false;
+  record.contacts.reset();
+  if (!record.search) {
+    Result<PairSearch<Real>> search = PairSearch<Real>::make();
+    if (!search) {
+      warn(search.error().message);
+      return false;
+    }
+    record.search = std::make_unique<PairSearch<Real>>(std::move(*search));
+  }
+  const auto found = find_pairs(record);
+  if (!found) {
+    warn(found.error().message);
+    return false;
+  }
+  record.found = *found;
+  if (found->stock_aborts) {
+    if (options_.policy == Policy::strict) return false;
+    name_strays(record);
+  }
+  Statistics::add(statistics_.missed_by_stock, found->missed_by_stock);
+  record.pairs_valid = true;
+  return true;
+}
+
+template <class Real>
+void EngineOf<Real>::verify_pairs(const Record& record) {
+  // Where stock aborts or pairs were added to stock's there is nothing to compare with.
+  if (record.found.stock_aborts ||
+      (options_.policy == Policy::fixed && record.found.missed_by_stock != 0)) {
+    return;
+  }
+  std::vector<GeomPair> stock, ours;
+  ode_.space_collide(record.space, &stock, &note_pair);
+  const bool asks = (record.mirror.all_traits & kHasAabbTest) != 0;
+  const Replayer<Real> replayer{ode_, user_tests_, nullptr, nullptr};
+  for (const auto& pair : record.pairs) {
+    if (asks && !replayer.is_near(record, pair)) continue;
+    ours.push_back({record.mirror.geoms[pair.g1], record.mirror.geoms[pair.g2]});
+  }
+  Statistics::add(statistics_.verified_pairs, stock.size());
+  if (const auto difference = compare_pairs<Real>(ode_, record, ours, stock);
+      difference && parts_.differs) {
+    parts_.differs(*difference);
+  }
+}
+
+template <class Real>
+void EngineOf<Real>::replay_record(Record& record, LiveCheck live, void* data,
+                                   NearCallback* callback) {
+  const std::shared_ptr<Record> alive = table_.hold(record.space);
+  Statistics::add(statistics_.pairs, record.pairs.size());
+  Frame<Real> frame(record.space);
+  frame.default_rules = computes_by_default_rules();
+  Replayer<Real>{ode_, user_tests_, data, callback}.replay(
+      frame, record, live,
+      [&](void* d, NearCallback* c) { ode_.space_collide(record.space, d, c); });
+  Statistics::add(statistics_.batch_contacts, frame.batch_contacts);
+  Statistics::add(statistics_.stock_contacts, frame.stock_contacts);
+}
+
+/// Simple, hash and SAP. False when the call is libode's.
+template <class Real>
+bool EngineOf<Real>::answer_in_order(Record& record, void* data, NearCallback* callback) {
+  const Entry entry(record);
+  if (!entry.entered()) return false;
+  if (entry.alone()) {
+    note_changes(record);
+    Statistics::add(record.pairs_valid ? statistics_.unchanged : statistics_.searched, 1);
+    try {
+      if (!refresh_pairs(record)) return false;
+    } catch (const std::bad_alloc&) {
+      warn("out of memory; the call is left to libode");
+      return false;
+    }
+    if (options_.verify) verify_pairs(record);
+  } else if (record.changed.load(std::memory_order_relaxed) || !record.pairs_valid) {
+    return false;
+  }
+  ++record.calls;
+  const LiveCheck live =
+      record.kind == geom_class::kSimpleSpace ? LiveCheck::rows : LiveCheck::none;
+  replay_record(record, live, data, callback);
+  return true;
+}
+
+/// Gives the geoms of a recorded sequence places in a mirror, so that it can be replayed like one.
+template <class Real>
+void EngineOf<Real>::intern_recorded(Record& record) const {
+  Mirror<Real>& mirror = record.mirror;
+  mirror.clear();
+  record.pairs.clear();
+  record.contacts.reset();
+  std::unordered_map<dxGeom*, std::uint32_t> places;
+  const auto place_of = [&](dxGeom* geom) {
+    const auto [place, is_new] = places.try_emplace(geom, mirror.size());
+    if (is_new) mirror.append_for_contacts(ode_, geom, user_tests_);
+    return place->second;
+  };
+  for (const auto& [o1, o2] : record.recorded) {
+    const std::uint32_t first = place_of(o1);
+    record.pairs.push_back({first, place_of(o2)});
+  }
+  record.pairs_valid = true;
+}
+
+/// Quadtree spaces and SAP spaces whose creation nobody saw.
+template <class Real>
+void EngineOf<Real>::record_or_replay(Record& record, void* data, NearCallback* callback) {
+  const Entry entry(record);
+  if (!entry.entered() || !entry.alone()) {
+    leave_to_stock(record.space, data, callback);
+    return;
+  }
+  note_changes(record);
+  ++record.calls;
+  if (record.recorded_valid && !record.pairs_valid) intern_recorded(record);
+  // What a user class answers may change without notice.
+  if (record.recorded_valid && (record.mirror.all_traits & kHasAabbTest) == 0) {
+    Statistics::add(statistics_.unchanged, 1);
+    if (options_.verify) verify_pairs(record);
+    replay_record(record,
+                  record.kind == geom_class::kQuadtreeSpace ? LiveCheck::rows : LiveCheck::none,
+                  data, callback);
+    return;
+  }
+  Statistics::add(statistics_.recorded, 1);
+  record.recorded.clear();
+  Recorder recorder{record.recorded, data, callback};
+  ode_.space_collide(record.space, &recorder, &Recorder::near);
+  record.recorded_valid = !record.changed.load(std::memory_order_relaxed);
+  Statistics::add(statistics_.pairs, record.recorded.size());
+}
+
+template <class Real>
+void EngineOf<Real>::space_collide(dxSpace* space, void* data, NearCallback* callback) {
+  if (space == nullptr || callback == nullptr) {
+    ode_.space_collide(space, data, callback);
+    return;
+  }
+  const Stopwatch stopwatch(options_.statistics, statistics_.inside_ns);
+  const int kind = kind_of(as_geom(space));
+  Record* record = kind == geom_class::kSapSpace && !table_.empty() ? table_.find(space) : nullptr;
+  const bool follows_sap = record != nullptr && record->sap.has_value();
+  if (!is_space_class(kind) ||
+      (!follows_sap && ode_.space_get_num_geoms(space) < min_geoms(kind))) {
+    leave_to_stock(space, data, callback);
+    return;
+  }
+  if (record == nullptr) record = find_or_make(space, kind);
+  if (kind == geom_class::kQuadtreeSpace || (kind == geom_class::kSapSpace && !follows_sap)) {
+    record_or_replay(*record, data, callback);
+  } else if (!answer_in_order(*record, data, callback)) {
+    record->mark_changed();
+    leave_to_stock(space, data, callback);
+  }
+}
+
+/// One geom against a space. Nothing when the call is libode's.
+template <class Real>
+std::optional<std::vector<GeomPair>> EngineOf<Real>::scan(dxSpace* scanned, dxGeom* other,
+                                                          bool scanned_first) {
+  const int kind = kind_of(as_geom(scanned)), other_kind = kind_of(other);
+  if (kind == geom_class::kQuadtreeSpace) return std::nullopt;
+  if (other_kind >= geom_class::kFirstUser &&
+      user_tests_[other_kind - geom_class::kFirstUser] != nullptr) {
+    return std::nullopt;
+  }
+  Record& record = *find_or_make(scanned, kind);
+  const Entry entry(record);
+  if (!entry.entered()) return std::nullopt;
+  if (entry.alone()) {
+    note_changes(record);
+    refresh_mirror(record);
+  } else if (record.changed.load(std::memory_order_relaxed) || !record.mirror_valid) {
+    return std::nullopt;
+  }
+  if ((record.mirror.all_traits & kHasAabbTest) != 0) return std::nullopt;
+  std::vector<GeomPair> pairs;
+  append_scan(record.mirror, Probe<Real>(ode_, other), scanned_first, pairs);
+  return pairs;
+}
+
+template <class Real>
+bool EngineOf<Real>::answer_scan(dxSpace* scanned, dxGeom* other, bool scanned_first,
+                                 const Rerun& rerun, void* data, NearCallback* callback) {
+  std::optional<std::vector<GeomPair>> pairs;
+  try {
+    pairs = scan(scanned, other, scanned_first);
+  } catch (const std::bad_alloc&) {
+    warn("out of memory; the call is left to libode");
+  }
+  if (!pairs) return false;
+  Statistics::add(statistics_.scanned, 1);
+  Statistics::add(statistics_.pairs, pairs->size());
+  if (pairs->empty()) return true;
+  Frame<Real> frame(scanned);
+  Replayer<Real>{ode_, user_tests_, data, callback}.replay(
+      frame, *pairs, scanned_first ? LiveCheck::first : LiveCheck::second, rerun);
+  Statistics::add(statistics_.stock_contacts, frame.stock_contacts);
+  return true;
+}
+
+template <class Real>
+void EngineOf<Real>::space_collide2(dxGeom* o1, dxGeom* o2, void* data, NearCallback* callback) {
+  if (o1 == nullptr || o2 == nullptr || callback == nullptr) {
+    ode_.space_collide2(o1, o2, data, callback);
+    return;
+  }
+  const Stopwatch stopwatch(options_.statistics, statistics_.inside_ns);
+  dxSpace* space1 = is_space_class(kind_of(o1)) ? as_space(o1) : nullptr;
+  dxSpace* space2 = is_space_class(kind_of(o2)) ? as_space(o2) : nullptr;
+  if (space1 != nullptr && space1 == space2) {
+    space_collide(space1, data, callback);
+    return;
+  }
+  if (space1 != nullptr && space2 != nullptr) {
+    const int level1 = ode_.space_get_sublevel(space1), level2 = ode_.space_get_sublevel(space2);
+    if (level1 > level2) space2 = nullptr;
+    if (level1 < level2) space1 = nullptr;
+  }
+  const Rerun rerun = [&](void* d, NearCallback* c) { ode_.space_collide2(o1, o2, d, c); };
+  bool answered = false;
+  dxSpace* const scanned = space1 != nullptr ? space1 : space2;
+  if ((space1 == nullptr) != (space2 == nullptr) &&
+      ode_.space_get_num_geoms(scanned) >= options_.min_geoms_scan) {
+    answered =
+        answer_scan(scanned, space1 != nullptr ? o2 : o1, space1 != nullptr, rerun, data, callback);
+  }
+  if (!answered) {
+    Statistics::add(statistics_.left_to_stock, 1);
+    ode_.space_collide2(o1, o2, data, callback);
+  }
+}
+
+/// Tried once, at the first pair of spheres: libode is initialised by then.
+template <class Real>
+bool EngineOf<Real>::spheres_are_ours() {
+  Agreement agreement = spheres_.load(std::memory_order_relaxed);
+  if (agreement == Agreement::unknown) {
+    const bool wanted = source_.single_precision || spheres_agree(ode_, *source_.device);
+    agreement = wanted ? Agreement::yes : Agreement::no;
+    spheres_.store(agreement, std::memory_order_relaxed);
+    if (!wanted) {
+      warn(
+          "this libode computes spheres with other bits than IEEE-754 operation by operation; "
+          "their contacts are left to it");
+    }
+  }
+  return agreement == Agreement::yes;
+}
+
+/// The contact of the frame's pair: 0 or 1 as dCollide, -1 when it is libode's.
+template <class Real>
+int EngineOf<Real>::answer_contact(Frame<Real>& frame, int flags, ContactGeomOf<Real>& contact,
+                                   int skip) {
+  Record& record = *frame.record;
+  if (!record.mirror.are_spheres(record.pairs[frame.number]) ||
+      record.version.load(std::memory_order_relaxed) != frame.version || !frame.default_rules ||
+      (flags & kContactCountMask) == 0 || skip < static_cast<int>(sizeof contact) ||
+      !spheres_are_ours()) {
+    return -1;
+  }
+  using Contacts = SphereContacts<Real>;
+  const std::int32_t place =
+      record.contacts.find(source_, record.mirror, record.pairs, frame.number);
+  if (place == Contacts::kNone) return -1;
+  contact.g1 = frame.o1;
+  contact.g2 = frame.o2;
+  contact.side1 = contact.side2 = -1;
+  if (place == Contacts::kApart) return 0;
+  const BodyContactOf<Real>& found = record.contacts.contact(place);
+  for (int axis = 0; axis < 3; ++axis) {
+    contact.pos[axis] = found.pos[axis];
+    contact.normal[axis] = found.normal[axis];
+  }
+  contact.depth = found.depth;
+  return 1;
+}
+
+template <class Real>
+int EngineOf<Real>::collide(dxGeom* o1, dxGeom* o2, int flags, void* contact, int skip) {
+  auto* const contacts = static_cast<ContactGeomOf<Real>*>(contact);
+  Frame<Real>* const frame = Frame<Real>::current();
+  if (frame == nullptr) return ode_.collide(o1, o2, flags, contacts, skip);
+  if (frame->o1 == o1 && frame->o2 == o2 && frame->record != nullptr && contact != nullptr) {
+    const int count = answer_contact(*frame, flags, *contacts, skip);
+    if (count >= 0) {
+      ++frame->batch_contacts;
+      if (options_.verify && !source_.single_precision) {
+        ContactGeomOf<Real> stock;
+        const int stock_count = ode_.collide(o1, o2, flags, &stock, sizeof stock);
+        const auto difference = compare_contacts<Real>(
+            ode_, {o1, o2}, count == 1 ? contacts : nullptr, stock_count == 1 ? &stock : nullptr);
+        if (difference && parts_.differs) parts_.differs(*difference);
+      }
+      return count;
+    }
+  }
+  ++frame->stock_contacts;
+  return ode_.collide(o1, o2, flags, contacts, skip);
+}
+
+template <class Real>
+void EngineOf<Real>::moved(dxGeom* geom) {
+  if (table_.empty() || geom == nullptr) return;
+  for (dxSpace* space = ode_.geom_get_space(geom); space != nullptr;
+       space = ode_.geom_get_space(as_geom(space))) {
+    if (Record* record = table_.find(space)) record->mark_moved();
+  }
+}
+
+template <class Real>
+void EngineOf<Real>::filters_changed(dxGeom* geom) {
+  if (table_.empty() || geom == nullptr) return;
+  dxSpace* const space = ode_.geom_get_space(geom);
+  if (space == nullptr) return;
+  if (Record* record = table_.find(space)) record->mark_moved();
+}
+
+template <class Real>
+void EngineOf<Real>::toggled(dxGeom* geom, bool enabled) {
+  dxSpace* const space = ode_.geom_get_space(geom);
+  if (space == nullptr) return;
+  if (!table_.empty()) {
+    if (Record* record = table_.find(space)) record->mark_changed();
+  }
+  for (Frame<Real>* frame = Frame<Real>::current(); frame != nullptr; frame = frame->outer) {
+    if (frame->space != space) continue;
+    frame->disturbed = frame->toggled = true;
+    frame->awakened = frame->awakened || enabled;
+  }
+}
+
+template <class Real>
+void EngineOf<Real>::added(dxSpace* space) {
+  if (table_.empty() || space == nullptr) return;
+  if (Record* record = table_.find(space)) record->mark_moved();
+}
+
+template <class Real>
+void EngineOf<Real>::removed(dxSpace* space, dxGeom* geom) {
+  added(space);
+  for (Frame<Real>* frame = Frame<Real>::current(); frame != nullptr; frame = frame->outer) {
+    if (frame->space != space) continue;
+    frame->disturbed = true;
+    frame->gone.push_back(geom);
+  }
+}
+
+template <class Real>
+void EngineOf<Real>::destroying(dxGeom* geom) {
+  if (geom == nullptr) return;
+  for (Frame<Real>* frame = Frame<Real>::current(); frame != nullptr; frame = frame->outer) {
+    frame->disturbed = true;
+    frame->gone.push_back(geom);
+    if (as_geom(frame->space) == geom) {
+      frame->stopped = true;
+      frame->record = nullptr;
+    }
+  }
+  if (!table_.empty() && is_space_class(kind_of(geom))) table_.erase(as_space(geom));
+}
+
+template <class Real>
+void EngineOf<Real>::levels_changed(dxSpace* space) {
+  added(space);
+}
+
+template <class Real>
+void EngineOf<Real>::sap_created(dxSpace* space, int axis_order) {
+  if (space == nullptr) return;
+  SapOrder<Real> order(axis_order);
+  if (!order.usable()) return;
+  auto record = std::make_shared<Record>(space, geom_class::kSapSpace);
+  record->sap = std::move(order);
+  Statistics::add(statistics_.spaces, 1);
+  table_.put(space, std::move(record));
+}
+
+template <class Real>
+void EngineOf<Real>::class_created(int number, AabbTest* test) {
+  const int index = number - geom_class::kFirstUser;
+  if (index >= 0 && index < geom_class::kUserClasses) user_tests_[index] = test;
+}
+
+template <class Real>
+void EngineOf<Real>::collider_overridden(int class1, int class2) {
+  if (class1 == geom_class::kSphere && class2 == geom_class::kSphere) {
+    spheres_.store(Agreement::no, std::memory_order_relaxed);
+  }
+}
+
+template <class Real>
+void EngineOf<Real>::closed() {
+  table_.clear();
+  std::fill(std::begin(user_tests_), std::end(user_tests_), nullptr);
+  spheres_.store(Agreement::unknown, std::memory_order_relaxed);
+}
+
+}  // namespace
+
+template <class Real>
+Result<std::unique_ptr<Engine>> make_engine(const LibodeOf<Real>& ode, EngineParts parts) {
+  try {
+    return std::unique_ptr<Engine>(std::make_unique<EngineOf<Real>>(ode, std::move(parts)));
+  } catch (const std::bad_alloc&) {
+    return Error{Errc::out_of_memory, "out of memory"};
+  }
+}
+
+template Result<std::unique_ptr<Engine>> make_engine(const LibodeOf<float>&, EngineParts);
+template Result<std::unique_ptr<Engine>> make_engine(const LibodeOf<double>&, EngineParts);
+
+}  // namespace harpoon::ode

@@ -1,0 +1,85 @@
+#pragma once
+
+// A packed copy of a space's enabled geoms in the space's own order: what finding and ordering
+// pairs needs, without a walk through libode's objects. It is read anew whenever anything changed;
+// it never changes libode's state beyond what dSpaceClean does.
+
+#include <cstdint>
+#include <span>
+#include <vector>
+
+#include "harpoon/records.hpp"
+#include "ode/libode.hpp"
+
+namespace harpoon::ode {
+
+/// Properties of a geom, as bits.
+enum GeomTraits : std::uint8_t {
+  kIsSphere = 1,    ///< an entry of `spheres` that libode's own collider would read in the same way
+  kIsNan = 2,       ///< a bound is NaN
+  kIsInverted = 4,  ///< min > max on an axis
+  kHasAabbTest = 8,  ///< a user class that wants to be asked about each pair
+};
+
+template <class Real>
+struct BoundsBox {
+  Real v[6];  ///< min x, max x, min y, max y, min z, max z
+};
+
+/// Which of the user classes ask (`dGeomClass::aabb_test`); null where one does not.
+using UserTests = AabbTest * [geom_class::kUserClasses];
+
+template <class Real>
+class Mirror {
+ public:
+  /// Reads all enabled geoms of the space, `count` of them at most, and cleans the space. Throws
+  /// std::bad_alloc; the mirror is then empty.
+  void read(const LibodeOf<Real>& ode, dxSpace* space, int count, const UserTests& tests);
+  /// The same for a space that changes the order of its geoms when it is cleaned.
+  void clean_and_read(const LibodeOf<Real>& ode, dxSpace* space, int count, const UserTests& tests);
+  void clear();
+  /// Adds a geom with what a replay of known pairs needs only: identity, sphere, whether it asks.
+  void append_for_contacts(const LibodeOf<Real>& ode, dxGeom* geom, const UserTests& tests);
+
+  [[nodiscard]] std::uint32_t size() const { return static_cast<std::uint32_t>(geoms.size()); }
+
+  /// Whether libode's filters let the pair through: not on one body, category and collide bits.
+  [[nodiscard]] bool counts(std::uint32_t i, std::uint32_t j) const {
+    if (bodies[i] == bodies[j] && bodies[i] != nullptr) return false;
+    return uniform_bits || ((category[i] & collide[j]) | (category[j] & collide[i])) != 0;
+  }
+  /// Whether both are spheres whose contact need not be libode's.
+  [[nodiscard]] bool are_spheres(IndexPair pair) const {
+    return (traits[pair.g1] & traits[pair.g2] & kIsSphere) != 0;
+  }
+  /// libode's test of two bounds, which calls NaN an overlap.
+  [[nodiscard]] bool overlap(std::uint32_t i, std::uint32_t j) const {
+    const Real* a = bounds[i].v;
+    const Real* b = bounds[j].v;
+    return !(a[0] > b[1] || a[1] < b[0] || a[2] > b[3] || a[3] < b[2] || a[4] > b[5] ||
+             a[5] < b[4]);
+  }
+
+  // One element per geom.
+  std::vector<dxGeom*> geoms;
+  std::vector<BoundsBox<Real>> bounds;
+  std::vector<SphereOf<Real>> spheres;  ///< zeros where the geom is none
+  std::vector<const dxBody*> bodies;
+  std::vector<unsigned long> category, collide;
+  std::vector<std::uint8_t> traits;
+
+  std::uint8_t all_traits = 0;  ///< or of `traits`
+  bool uniform_bits = true;     ///< every pair passes the category and collide bits
+  bool only_spheres = false;    ///< every geom is one
+
+ private:
+  void resize(std::size_t count);
+  void read_geom(const LibodeOf<Real>& ode, dxGeom* geom, int number, const UserTests& tests);
+  bool read_sphere(const LibodeOf<Real>& ode, dxGeom* geom, std::uint32_t slot);
+  void read_all(const LibodeOf<Real>& ode, dxSpace* space, int count, const UserTests& tests);
+
+  std::vector<const Real*> positions_;  ///< where positions were last time: hints for prefetching
+  std::uint32_t filled_ = 0;
+};
+
+}  // namespace harpoon::ode

@@ -1,0 +1,128 @@
+// The symbols of libode that the drop-in stands in front of. Each does what libode does and tells
+// the engine; nothing is decided here. None takes or returns a floating-point number, so they serve
+// libode in both precisions.
+
+#include "harpoon/export.hpp"
+#include "ode/drop_in.hpp"
+#include "ode/interposed.hpp"
+
+namespace {
+
+using harpoon::ode::AabbTest;
+using harpoon::ode::drop_in;
+using harpoon::ode::drop_in_if_made;
+using harpoon::ode::Engine;
+using harpoon::ode::libode;
+using harpoon::ode::NearCallback;
+
+/// dGeomClass.
+struct GeomClass {
+  int bytes;
+  void* collider;
+  void* aabb;
+  AabbTest* aabb_test;
+  void* destructor;
+};
+
+void set_enabled(dxGeom* geom, bool enabled, void (*set)(dxGeom*)) {
+  Engine* const engine = drop_in_if_made();
+  const bool changes =
+      engine != nullptr && geom != nullptr && (libode().geom_is_enabled(geom) != 0) != enabled;
+  set(geom);
+  if (changes) engine->toggled(geom, enabled);
+}
+
+}  // namespace
+
+extern "C" {
+
+HARPOON_API void dSpaceCollide(dxSpace* space, void* data, NearCallback* callback) {
+  Engine* const engine = drop_in();
+  if (engine == nullptr) return libode().space_collide(space, data, callback);
+  engine->space_collide(space, data, callback);
+}
+
+HARPOON_API void dSpaceCollide2(dxGeom* o1, dxGeom* o2, void* data, NearCallback* callback) {
+  Engine* const engine = drop_in();
+  if (engine == nullptr) return libode().space_collide2(o1, o2, data, callback);
+  engine->space_collide2(o1, o2, data, callback);
+}
+
+HARPOON_API int dCollide(dxGeom* o1, dxGeom* o2, int flags, void* contact, int skip) {
+  Engine* const engine = drop_in_if_made();
+  if (engine == nullptr) return libode().collide(o1, o2, flags, contact, skip);
+  return engine->collide(o1, o2, flags, contact, skip);
+}
+
+HARPOON_API void dGeomMoved(dxGeom* geom) {
+  libode().geom_moved(geom);
+  if (Engine* const engine = drop_in_if_made()) engine->moved(geom);
+}
+
+HARPOON_API void dGeomDestroy(dxGeom* geom) {
+  if (Engine* const engine = drop_in_if_made()) engine->destroying(geom);
+  libode().geom_destroy(geom);
+}
+
+HARPOON_API void dGeomSetBody(dxGeom* geom, dxBody* body) {
+  libode().geom_set_body(geom, body);
+  if (Engine* const engine = drop_in_if_made()) engine->filters_changed(geom);
+}
+
+HARPOON_API void dGeomSetCategoryBits(dxGeom* geom, unsigned long bits) {
+  libode().geom_set_category_bits(geom, bits);
+  if (Engine* const engine = drop_in_if_made()) engine->filters_changed(geom);
+}
+
+HARPOON_API void dGeomSetCollideBits(dxGeom* geom, unsigned long bits) {
+  libode().geom_set_collide_bits(geom, bits);
+  if (Engine* const engine = drop_in_if_made()) engine->filters_changed(geom);
+}
+
+HARPOON_API void dGeomEnable(dxGeom* geom) {
+  set_enabled(geom, true, libode().geom_enable);
+}
+
+HARPOON_API void dGeomDisable(dxGeom* geom) {
+  set_enabled(geom, false, libode().geom_disable);
+}
+
+HARPOON_API void dSpaceAdd(dxSpace* space, dxGeom* geom) {
+  libode().space_add(space, geom);
+  if (Engine* const engine = drop_in_if_made()) engine->added(space);
+}
+
+HARPOON_API void dSpaceRemove(dxSpace* space, dxGeom* geom) {
+  libode().space_remove(space, geom);
+  if (Engine* const engine = drop_in_if_made()) engine->removed(space, geom);
+}
+
+HARPOON_API void dHashSpaceSetLevels(dxSpace* space, int min_level, int max_level) {
+  libode().hash_space_set_levels(space, min_level, max_level);
+  if (Engine* const engine = drop_in_if_made()) engine->levels_changed(space);
+}
+
+HARPOON_API dxSpace* dSweepAndPruneSpaceCreate(dxSpace* parent, int axis_order) {
+  dxSpace* const space = libode().sap_space_create(parent, axis_order);
+  if (Engine* const engine = drop_in()) engine->sap_created(space, axis_order);
+  return space;
+}
+
+HARPOON_API int dCreateGeomClass(const GeomClass* geom_class) {
+  AabbTest* const test = geom_class == nullptr ? nullptr : geom_class->aabb_test;
+  const int number = libode().create_geom_class(geom_class);
+  if (Engine* const engine = drop_in()) engine->class_created(number, test);
+  return number;
+}
+
+HARPOON_API void dSetColliderOverride(int class1, int class2, void* function) {
+  libode().set_collider_override(class1, class2, function);
+  if (Engine* const engine = drop_in()) engine->collider_overridden(class1, class2);
+}
+
+HARPOON_API void dCloseODE() {
+  if (Engine* const engine = drop_in_if_made()) engine->closed();
+  libode().close_ode();
+}
+
+}  // extern "C"

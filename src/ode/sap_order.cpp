@@ -1,0 +1,197 @@
+#include "ode/sap_order.hpp"
+
+#include <algorithm>
+#include <array>
+#include <bit>
+#include <limits>
+#include <numeric>
+#include <utility>
+
+namespace harpoon::ode {
+namespace {
+
+/// Up to this many geoms the sweep itself is the fastest way to find the pairs.
+constexpr std::size_t kFewGeoms = 256;
+
+/// Bits whose unsigned order is that of the floats.
+std::uint32_t ordered_bits(float value) {
+  const auto bits = std::bit_cast<std::uint32_t>(value);
+  return (bits >> 31) != 0 ? ~bits : bits | 0x80000000u;
+}
+
+}  // namespace
+
+template <class Real>
+SapOrder<Real>::SapOrder(int axis_order)
+    : axes_{axis_order & 3, (axis_order >> 2) & 3, (axis_order >> 4) & 3} {}
+
+template <class Real>
+bool SapOrder<Real>::usable() const {
+  unsigned seen = 0;
+  for (const int axis : axes_) seen |= 1u << axis;
+  return seen == 0b111;
+}
+
+template <class Real>
+void SapOrder<Real>::split(const Mirror<Real>& mirror) {
+  const int low = 2 * axes_[0];
+  bounded_.clear();
+  unbounded_.clear();
+  lows_.clear();
+  highs_.clear();
+  for (std::uint32_t i = 0; i < mirror.size(); ++i) {
+    const Real* box = mirror.bounds[i].v;
+    if (box[low + 1] == std::numeric_limits<Real>::infinity()) {
+      unbounded_.push_back(i);
+      continue;
+    }
+    bounded_.push_back(i);
+    lows_.push_back(static_cast<float>(box[low]));
+    highs_.push_back(static_cast<float>(box[low + 1]));
+  }
+}
+
+template <class Real>
+bool SapOrder<Real>::is_sorted() const {
+  for (std::size_t i = 1; i < ranks_.size(); ++i) {
+    if (lows_[ranks_[i]] < lows_[ranks_[i - 1]]) return false;
+  }
+  return true;
+}
+
+/// Stable by value; runs of one negative value come out reversed, as libode's last pass does it.
+template <class Real>
+void SapOrder<Real>::radix_sort() {
+  const std::size_t count = ranks_.size();
+  keys_.resize(count);
+  keys_scratch_.resize(count);
+  std::array<std::array<std::uint32_t, 256>, 4> starts{};
+  for (std::size_t i = 0; i < count; ++i) {
+    const std::uint32_t bits = ordered_bits(lows_[ranks_[i]]);
+    keys_[i] = std::uint64_t{bits} << 32 | ranks_[i];
+    for (std::size_t pass = 0; pass < 4; ++pass) ++starts[pass][bits >> (8 * pass) & 255];
+  }
+  for (std::size_t pass = 0; pass < 4; ++pass) {
+    auto& start = starts[pass];
+    if (std::find(start.begin(), start.end(), count) != start.end()) continue;  // one byte for all
+    std::uint32_t next = 0;
+    for (std::uint32_t& s : start) next += std::exchange(s, next);
+    for (const std::uint64_t key : keys_) {
+      keys_scratch_[start[key >> (32 + 8 * pass) & 255]++] = key;
+    }
+    keys_.swap(keys_scratch_);
+  }
+  constexpr std::uint64_t kPositive = std::uint64_t{1} << 63;
+  for (std::size_t begin = 0; begin < count && keys_[begin] < kPositive;) {
+    std::size_t end = begin + 1;
+    while (end < count && keys_[end] >> 32 == keys_[begin] >> 32) ++end;
+    std::reverse(keys_.begin() + static_cast<std::ptrdiff_t>(begin),
+                 keys_.begin() + static_cast<std::ptrdiff_t>(end));
+    begin = end;
+  }
+  for (std::size_t i = 0; i < count; ++i) ranks_[i] = static_cast<std::uint32_t>(keys_[i]);
+}
+
+template <class Real>
+void SapOrder<Real>::sort() {
+  // Another number of geoms: libode forgets its ranks.
+  if (ranks_.size() != lows_.size()) {
+    ranks_.resize(lows_.size());
+    std::iota(ranks_.begin(), ranks_.end(), 0u);
+  }
+  if (!is_sorted()) radix_sort();
+}
+
+/// libode's own loop, step by step, so that it also gives what NaNs and inverted boxes give there.
+template <class Real>
+void SapOrder<Real>::sweep(const Mirror<Real>& mirror, std::vector<IndexPair>& out) const {
+  const std::size_t count = ranks_.size();
+  const int low1 = 2 * axes_[1], low2 = 2 * axes_[2];
+  std::size_t running = 0;
+  for (std::size_t k = 0; k < count; ++k) {
+    const std::uint32_t p = ranks_[k];
+    while (lows_[ranks_[running++]] < lows_[p]) {
+      if (running == count) return;
+    }
+    if (running == count) return;
+    const Real* a = mirror.bounds[bounded_[p]].v;
+    for (std::size_t partner = running; partner < count; ++partner) {
+      const std::uint32_t q = ranks_[partner];
+      if (!(lows_[q] <= highs_[p])) break;
+      const Real* b = mirror.bounds[bounded_[q]].v;
+      if (a[low1 + 1] >= b[low1] && b[low1 + 1] >= a[low1] && a[low2 + 1] >= b[low2] &&
+          b[low2 + 1] >= a[low2] && mirror.counts(bounded_[p], bounded_[q])) {
+        out.push_back({bounded_[p], bounded_[q]});
+      }
+    }
+  }
+}
+
+template <class Real>
+std::optional<Error> SapOrder<Real>::search(const Mirror<Real>& mirror,
+                                            CandidateFinder<Real>& finder, RowOrder& rows,
+                                            std::vector<IndexPair>& out) {
+  const auto low = static_cast<std::size_t>(2 * axes_[0]);
+  rounded_.assign(mirror.bounds.begin(), mirror.bounds.end());
+  for (std::size_t k = 0; k < bounded_.size(); ++k) {
+    rounded_[bounded_[k]].v[low] = static_cast<Real>(lows_[k]);
+    rounded_[bounded_[k]].v[low + 1] = static_cast<Real>(highs_[k]);
+  }
+  std::span<const std::uint8_t> skip;
+  if (!unbounded_.empty()) {
+    skip_.assign(mirror.size(), 0);
+    for (const std::uint32_t geom : unbounded_) skip_[geom] = 1;
+    skip = skip_;
+  }
+  const Result<std::span<const IndexPair>> pairs = finder.find(mirror, rounded_, skip);
+  if (!pairs) return pairs.error();
+
+  rank_of_geom_.resize(mirror.size());
+  for (std::uint32_t k = 0; k < ranks_.size(); ++k) rank_of_geom_[bounded_[ranks_[k]]] = k;
+  rows.pairs.resize(pairs->size());
+  for (std::size_t k = 0; k < pairs->size(); ++k) {
+    const auto [i, j] = (*pairs)[k];
+    const std::uint32_t rank_i = rank_of_geom_[i], rank_j = rank_of_geom_[j];
+    rows.pairs[k] = rank_i < rank_j ? KeyedPair{rank_j, i, j} : KeyedPair{rank_i, j, i};
+  }
+  rows.append_to(out, static_cast<std::uint32_t>(ranks_.size()),
+                 [this](std::uint32_t first) { return rank_of_geom_[first]; });
+  return std::nullopt;
+}
+
+template <class Real>
+void SapOrder<Real>::append_unbounded(const Mirror<Real>& mirror,
+                                      std::vector<IndexPair>& out) const {
+  for (std::size_t m = 0; m < unbounded_.size(); ++m) {
+    const std::uint32_t first = unbounded_[m];
+    for (std::size_t n = m + 1; n < unbounded_.size(); ++n) {
+      if (mirror.counts(first, unbounded_[n])) out.push_back({first, unbounded_[n]});
+    }
+    for (const std::uint32_t second : bounded_) {
+      if (mirror.counts(first, second)) out.push_back({first, second});
+    }
+  }
+}
+
+template <class Real>
+std::optional<Error> SapOrder<Real>::append(const Mirror<Real>& mirror,
+                                            CandidateFinder<Real>& finder, RowOrder& rows,
+                                            std::vector<IndexPair>& out) {
+  split(mirror);
+  if (!bounded_.empty()) {
+    sort();
+    constexpr std::uint8_t kOdd = kIsNan | kIsInverted;
+    if (bounded_.size() <= kFewGeoms || (mirror.all_traits & kOdd) != 0) {
+      sweep(mirror, out);
+    } else if (auto error = search(mirror, finder, rows, out)) {
+      return error;
+    }
+  }
+  append_unbounded(mirror, out);
+  return std::nullopt;
+}
+
+template class SapOrder<float>;
+template class SapOrder<double>;
+
+}  // namespace harpoon::ode

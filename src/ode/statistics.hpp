@@ -1,0 +1,36 @@
+#pragma once
+
+// What an engine has done: counters that any thread adds to, and their one line of text.
+
+#include <atomic>
+#include <cstdint>
+#include <string>
+#include <string_view>
+
+namespace harpoon::ode {
+
+struct Statistics {
+  using Counter = std::atomic<std::uint64_t>;
+
+  Counter spaces{0};           ///< that Harpoon came to know
+  Counter searched{0};         ///< dSpaceCollide calls whose pairs were found by Harpoon
+  Counter unchanged{0};        ///< answered from the call before: nothing had changed
+  Counter recorded{0};         ///< run by libode while its pairs were noted down
+  Counter scanned{0};          ///< dSpaceCollide2 calls answered by Harpoon
+  Counter left_to_stock{0};    ///< small, nested, unknown: libode's own
+  Counter pairs{0};            ///< near callbacks
+  Counter batch_contacts{0};   ///< dCollide calls answered from a batch
+  Counter stock_contacts{0};   ///< other dCollide calls while a space was replayed
+  Counter missed_by_stock{0};  ///< pairs that a stock hash space misses
+  Counter verified_pairs{0};
+  Counter inside_ns{0};  ///< in dSpaceCollide and dSpaceCollide2, callbacks included
+
+  static void add(Counter& counter, std::uint64_t amount) {
+    counter.fetch_add(amount, std::memory_order_relaxed);
+  }
+};
+
+/// One line without newline.
+std::string to_line(const Statistics& statistics, std::string_view device);
+
+}  // namespace harpoon::ode

@@ -1,0 +1,62 @@
+#pragma once
+
+// The part of libode's binary interface that the drop-in meets: handles, class numbers, the contact
+// record. Written out here so that one binary serves libode in both precisions without its headers.
+
+#include <cstddef>
+#include <cstdint>
+
+extern "C" {
+struct dxGeom;
+struct dxSpace;
+struct dxBody;
+}
+
+namespace harpoon::ode {
+
+using NearCallback = void(void* data, dxGeom* o1, dxGeom* o2);
+
+/// Numbers that dGeomGetClass returns.
+namespace geom_class {
+inline constexpr int kSphere = 0;
+inline constexpr int kBox = 1;
+inline constexpr int kCapsule = 2;
+inline constexpr int kCylinder = 3;
+inline constexpr int kSimpleSpace = 10;
+inline constexpr int kHashSpace = 11;
+inline constexpr int kSapSpace = 12;
+inline constexpr int kQuadtreeSpace = 13;
+inline constexpr int kFirstUser = 14;
+inline constexpr int kUserClasses = 4;
+}  // namespace geom_class
+
+[[nodiscard]] constexpr bool is_space_class(int number) {
+  return number >= geom_class::kSimpleSpace && number <= geom_class::kQuadtreeSpace;
+}
+
+/// dContactGeom.
+template <class Real>
+struct ContactGeomOf {
+  Real pos[4];
+  Real normal[4];
+  Real depth;
+  dxGeom *g1, *g2;
+  int side1, side2;
+};
+static_assert(sizeof(ContactGeomOf<double>) == 96 && sizeof(ContactGeomOf<float>) == 64);
+
+/// The bits of dCollide's flags that hold the largest number of contacts.
+inline constexpr int kContactCountMask = 0xffff;
+
+/// dAABBTestFn: 0 when the geom can prove that it does not touch the box.
+using AabbTest = int(dxGeom* geom, dxGeom* other, void* bounds_of_other);
+
+/// A space is a geom: libode's own callers cast in this way.
+[[nodiscard]] inline dxGeom* as_geom(dxSpace* space) {
+  return reinterpret_cast<dxGeom*>(space);
+}
+[[nodiscard]] inline dxSpace* as_space(dxGeom* geom) {
+  return reinterpret_cast<dxSpace*>(geom);
+}
+
+}  // namespace harpoon::ode

@@ -1,0 +1,96 @@
+#include "ode/verify.hpp"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <cstring>
+
+namespace harpoon::ode {
+namespace {
+
+std::string_view kind_name(int kind) {
+  switch (kind) {
+    case geom_class::kSimpleSpace:
+      return "simple";
+    case geom_class::kHashSpace:
+      return "hash";
+    case geom_class::kSapSpace:
+      return "SAP";
+    default:
+      return "quadtree";
+  }
+}
+
+template <class Real>
+std::string describe(const LibodeOf<Real>& ode, dxGeom* geom) {
+  BoundsBox<Real> box;
+  ode.geom_get_aabb(geom, box.v);
+  return fmt::format("{} (class {}, x {} to {}, y {} to {}, z {} to {})", fmt::ptr(geom),
+                     ode.geom_get_class(geom), box.v[0], box.v[1], box.v[2], box.v[3], box.v[4],
+                     box.v[5]);
+}
+
+template <class Real>
+std::string describe(const LibodeOf<Real>& ode, std::span<const GeomPair> pairs, std::size_t k) {
+  if (k >= pairs.size()) return "nothing";
+  return fmt::format("{} and {}", describe(ode, pairs[k].o1), describe(ode, pairs[k].o2));
+}
+
+template <class Real>
+std::string describe(const ContactGeomOf<Real>* contact) {
+  if (contact == nullptr) return "no contact";
+  const ContactGeomOf<Real>& c = *contact;
+  return fmt::format("pos {} {} {}, normal {} {} {}, depth {}", c.pos[0], c.pos[1], c.pos[2],
+                     c.normal[0], c.normal[1], c.normal[2], c.depth);
+}
+
+}  // namespace
+
+template <class Real>
+std::optional<std::string> compare_pairs(const LibodeOf<Real>& ode, const SpaceRecord<Real>& record,
+                                         std::span<const GeomPair> ours,
+                                         std::span<const GeomPair> stock) {
+  const auto [at, stock_at] = std::mismatch(ours.begin(), ours.end(), stock.begin(), stock.end());
+  if (at == ours.end() && stock_at == stock.end()) return std::nullopt;
+  const auto k = static_cast<std::size_t>(at - ours.begin());
+  return fmt::format(
+      "call {} on {} space {} with {} geoms: of {} pairs ({} in stock) number {} is {}; stock has "
+      "{}",
+      record.calls, kind_name(record.kind), fmt::ptr(record.space), record.mirror.size(),
+      ours.size(), stock.size(), k, describe(ode, ours, k), describe(ode, stock, k));
+}
+
+template <class Real>
+std::optional<std::string> compare_contacts(const LibodeOf<Real>& ode, GeomPair pair,
+                                            const ContactGeomOf<Real>* ours,
+                                            const ContactGeomOf<Real>* stock) {
+  const auto same = [](const auto& a, const auto& b, std::size_t bytes) {
+    return std::memcmp(&a, &b, bytes) == 0;
+  };
+  constexpr std::size_t kVectorBytes = 3 * sizeof(Real);
+  if (ours == nullptr && stock == nullptr) return std::nullopt;
+  if (ours != nullptr && stock != nullptr && same(ours->pos, stock->pos, kVectorBytes) &&
+      same(ours->normal, stock->normal, kVectorBytes) &&
+      same(ours->depth, stock->depth, sizeof(Real)) && ours->g1 == stock->g1 &&
+      ours->g2 == stock->g2 && ours->side1 == stock->side1 && ours->side2 == stock->side2) {
+    return std::nullopt;
+  }
+  return fmt::format("contact of {} and {}: {}; stock has {}", describe(ode, pair.o1),
+                     describe(ode, pair.o2), describe(ours), describe(stock));
+}
+
+template std::optional<std::string> compare_pairs(const LibodeOf<float>&, const SpaceRecord<float>&,
+                                                  std::span<const GeomPair>,
+                                                  std::span<const GeomPair>);
+template std::optional<std::string> compare_pairs(const LibodeOf<double>&,
+                                                  const SpaceRecord<double>&,
+                                                  std::span<const GeomPair>,
+                                                  std::span<const GeomPair>);
+template std::optional<std::string> compare_contacts(const LibodeOf<float>&, GeomPair,
+                                                     const ContactGeomOf<float>*,
+                                                     const ContactGeomOf<float>*);
+template std::optional<std::string> compare_contacts(const LibodeOf<double>&, GeomPair,
+                                                     const ContactGeomOf<double>*,
+                                                     const ContactGeomOf<double>*);
+
+}  // namespace harpoon::ode

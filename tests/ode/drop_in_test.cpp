@@ -1,0 +1,117 @@
+// The drop-in against stock libode, in one process: this program is linked to libharpoon_ode before
+// libode, as a preload would have it, and reaches stock through libode's own handle.
+
+#include <gtest/gtest.h>
+
+#include <algorithm>
+#include <cstdlib>
+#include <iostream>
+
+#include "ode/twin_world.hpp"
+
+namespace harpoon::test {
+namespace {
+
+#if defined(__SANITIZE_ADDRESS__) || defined(__SANITIZE_THREAD__)
+constexpr std::uint64_t kScenes = 12;
+#else
+constexpr std::uint64_t kScenes = 200;
+#endif
+constexpr int kSteps = 100;
+
+class Ode : public ::testing::Environment {
+ public:
+  void SetUp() override {
+    // Small spaces too, which otherwise are libode's.
+    ::setenv("HARPOON_MIN_GEOMS", "2", 1);
+    dInitODE2(0);
+    dAllocateODEDataForThread(static_cast<unsigned>(dAllocateMaskAll));
+  }
+  void TearDown() override { dCloseODE(); }
+};
+const ::testing::Environment* const kOde = ::testing::AddGlobalTestEnvironment(new Ode);
+
+WorldPlan plan_of(std::uint64_t seed, SpaceKind kind) {
+  Random random(seed * 7919);
+  WorldPlan plan;
+  plan.kind = kind;
+  plan.geoms = static_cast<std::uint32_t>(random.below(16) == 0 ? 300 + random.below(200)
+                                                                : 3 + random.below(70));
+  plan.lattice = random.below(2) == 0;
+  plan.spheres_only = random.below(4) == 0;
+  plan.extent = plan.geoms > 200 ? 9 : 3;
+  plan.toggles_in_callbacks = random.below(3) == 0;
+  plan.nested_calls = random.below(4) == 0;
+  plan.user_class = random.below(5) == 0;
+  return plan;
+}
+
+struct Seen {
+  std::uint64_t callbacks = 0, contacts = 0, toggled = 0, added = 0, removed = 0, nested = 0;
+  void take(const World& world) {
+    callbacks += world.callbacks;
+    contacts += world.contacts;
+    toggled += world.toggled;
+    added += world.added;
+    removed += world.removed;
+    nested += world.nested;
+  }
+};
+
+/// Runs one scene in both worlds. False after the first difference.
+bool run_scene(std::uint64_t seed, SpaceKind kind, Seen& seen) {
+  const WorldPlan plan = plan_of(seed, kind);
+  World stock(stock_ode(), plan, seed), ours(linked_ode(), plan, seed);
+  const int steps = plan.geoms > 200 ? kSteps / 10 : kSteps;
+  for (int step = 0; step < steps; ++step) {
+    stock.change();
+    ours.change();
+    stock.collide();
+    ours.collide();
+    if (step % 3 == 0) {
+      stock.collide_with_others();
+      ours.collide_with_others();
+    }
+    const auto expected = stock.take_trace(), got = ours.take_trace();
+    if (expected != got) {
+      const auto at = std::mismatch(expected.begin(), expected.end(), got.begin(), got.end()).first;
+      ADD_FAILURE() << "seed " << seed << ", kind " << static_cast<int>(kind) << ", step " << step
+                    << ", " << plan.geoms << " geoms: traces of " << expected.size() << " and "
+                    << got.size() << " words differ at word " << at - expected.begin();
+      return false;
+    }
+  }
+  seen.take(ours);
+  return true;
+}
+
+void run_scenes(SpaceKind kind) {
+  Seen seen;
+  for (std::uint64_t seed = 1; seed <= kScenes; ++seed) {
+    ASSERT_TRUE(run_scene(seed, kind, seen));
+  }
+  EXPECT_GT(seen.callbacks, 1000 * kScenes);
+  EXPECT_GT(seen.contacts, 100 * kScenes);
+  EXPECT_GT(seen.toggled, 10 * kScenes);
+  EXPECT_GT(seen.added, kScenes);
+  EXPECT_GT(seen.removed, kScenes);
+  EXPECT_GT(seen.nested, kScenes);
+  std::cout << kScenes << " scenes: " << seen.callbacks << " callbacks, " << seen.contacts
+            << " contacts, " << seen.nested << " nested calls\n";
+}
+
+TEST(DropIn, SimpleSpacesAreStock) {
+  run_scenes(SpaceKind::simple);
+}
+TEST(DropIn, HashSpacesAreStock) {
+  run_scenes(SpaceKind::hash);
+}
+TEST(DropIn, SapSpacesAreStock) {
+  run_scenes(SpaceKind::sap);
+}
+TEST(DropIn, QuadtreeSpacesAreStock) {
+  run_scenes(SpaceKind::quadtree);
+}
+
+}  // namespace
+}  // namespace harpoon::test

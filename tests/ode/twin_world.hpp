@@ -1,0 +1,97 @@
+#pragma once
+
+// Two copies of one ODE world, changed by one script: one is collided by stock libode, the other by
+// the drop-in. Every callback and every contact goes into a trace, by the numbers of geoms, so that
+// traces of the two are the same when and only when the drop-in does what stock does.
+
+#include <ode/ode.h>
+
+#include <cstdint>
+#include <vector>
+
+#include "support/random.hpp"
+
+namespace harpoon::test {
+
+/// libode's own entry points, past whatever is interposed.
+struct StockOde {
+  void (*space_collide)(dSpaceID, void*, dNearCallback*);
+  void (*space_collide2)(dGeomID, dGeomID, void*, dNearCallback*);
+  int (*collide)(dGeomID, dGeomID, int, dContactGeom*, int);
+  void (*geom_enable)(dGeomID);
+  void (*geom_disable)(dGeomID);
+};
+
+/// Those of the library libode.so.8 itself.
+const StockOde& stock_ode();
+/// Those that this program is linked to: the drop-in's.
+const StockOde& linked_ode();
+
+enum class SpaceKind { simple, hash, sap, quadtree };
+
+/// What is in a world and what may happen to it.
+struct WorldPlan {
+  SpaceKind kind = SpaceKind::simple;
+  std::uint32_t geoms = 40;
+  double extent = 4;     ///< geoms are within +- this
+  bool lattice = false;  ///< coordinates are multiples of 1/4: ties and touching bounds
+  bool spheres_only = false;
+  bool toggles_in_callbacks = false;
+  bool nested_calls = false;
+  bool user_class = false;
+  bool two_spaces = true;  ///< a second space with geoms to collide against the first
+};
+
+class World {
+ public:
+  World(const StockOde& ode, const WorldPlan& plan, std::uint64_t seed);
+  ~World();
+  World(const World&) = delete;
+  World& operator=(const World&) = delete;
+
+  /// Changes things as the script says: the same for every world of the same plan and seed.
+  void change();
+  /// One dSpaceCollide with what the plan wants in callbacks.
+  void collide();
+  /// dSpaceCollide2 of the second space's geoms against the space.
+  void collide_with_others();
+
+  /// What callbacks saw since the last call: numbers of geoms and bits of contacts.
+  std::vector<std::uint64_t> take_trace();
+
+  // What happened, for tests that must not be vacuous.
+  std::uint64_t callbacks = 0, contacts = 0, toggled = 0, added = 0, removed = 0, nested = 0;
+
+ private:
+  struct Slot {
+    dGeomID geom = nullptr;
+    dBodyID body = nullptr;
+  };
+  static void near(void* world, dGeomID o1, dGeomID o2);
+  static void near_nested(void* world, dGeomID o1, dGeomID o2);
+  void on_near(dGeomID o1, dGeomID o2);
+  void note_contacts(dGeomID o1, dGeomID o2, int flags);
+  void note(std::uint64_t value) { trace_.push_back(value); }
+  dGeomID make_shape();
+  void fill(std::uint32_t number);
+  void place(std::uint32_t number);
+  void change_one();
+  double coordinate();
+  double size();
+  [[nodiscard]] std::uint64_t number_of(dGeomID geom) const;
+
+  const StockOde& ode_;
+  const WorldPlan plan_;
+  Random random_;
+  std::uint64_t in_call_ = 0;  ///< counts callbacks of a call, for choices within it
+  std::uint64_t calls_ = 0;
+  dWorldID world_;
+  dSpaceID space_;
+  dSpaceID others_;
+  dTriMeshDataID mesh_;
+  int user_class_ = -1;
+  std::vector<Slot> slots_;
+  std::vector<std::uint64_t> trace_;
+};
+
+}  // namespace harpoon::test

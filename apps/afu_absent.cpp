@@ -1,9 +1,12 @@
 #include "apps/afu_entry.hpp"
-#include "device/afu/device.hpp"
 
 namespace harpoon::app {
 
-CatalogEntry afu_entry() {
+Result<std::unique_ptr<afu::AfuDevice>> open_afu(const AfuSettings&) {
+  return Error{Errc::device_unavailable, std::string(afu::afu_absent_reason())};
+}
+
+CatalogEntry afu_entry(const std::string&) {
   DeviceInfo info;
   info.name = "afu";
   info.modelled = true;

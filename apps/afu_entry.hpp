@@ -1,13 +1,28 @@
 #pragma once
 
-// The AFU of the device catalogue. Which of afu_simulated.cpp and afu_absent.cpp defines it is
-// decided at configure time: the simulation needs Verilator.
+// The AFU as the command composes it: a device behind a link. Which of afu_simulated.cpp and
+// afu_absent.cpp defines it is decided at configure time: the simulation needs Verilator.
+
+#include <memory>
+#include <string>
 
 #include "apps/device_catalog.hpp"
+#include "device/afu/device.hpp"
 
 namespace harpoon::app {
 
-/// The AFU behind the harp profile, or why there is none.
-CatalogEntry afu_entry();
+struct AfuSettings {
+  /// "harp", or a profile with numbers replaced: "harp,latency_ns=500".
+  std::string profile = kDefaultAfuProfile;
+  afu::AfuOptions options = {};
+  std::string waveform = {};  ///< file to write a VCD into; empty: none
+};
+
+/// Errors: device_unavailable (with how to get one), invalid_argument (profile, waveform).
+Result<std::unique_ptr<afu::AfuDevice>> open_afu(const AfuSettings& settings);
+
+/// The AFU behind that profile, or why there is none. Throws CommandError for a profile that does
+/// not parse.
+CatalogEntry afu_entry(const std::string& profile);
 
 }  // namespace harpoon::app

@@ -1,39 +1,38 @@
 #include "apps/afu_entry.hpp"
-#include "device/afu/device.hpp"
+#include "apps/exit_code.hpp"
 #include "sim/simulated_link.hpp"
 
 namespace harpoon::app {
-namespace {
 
-constexpr std::string_view kProfile = "harp";
-
-Result<std::unique_ptr<Device>> open_simulated(unsigned) {
-  const Result<sim::LinkProfile> profile = sim::find_profile(kProfile);
+Result<std::unique_ptr<afu::AfuDevice>> open_afu(const AfuSettings& settings) {
+  const Result<sim::LinkProfile> profile = sim::parse_profile(settings.profile);
   if (!profile) {
     return profile.error();
   }
   Result<std::unique_ptr<sim::SimulatedLink>> link =
-      sim::SimulatedLink::create({.profile = *profile});
+      sim::SimulatedLink::create({.profile = *profile, .waveform = settings.waveform});
   if (!link) {
     return link.error();
   }
-  Result<std::unique_ptr<afu::AfuDevice>> device = afu::make_afu_device(std::move(*link));
-  if (!device) {
-    return device.error();
-  }
-  return std::unique_ptr<Device>(std::move(*device));
+  return afu::make_afu_device(std::move(*link), settings.options);
 }
 
-}  // namespace
-
-CatalogEntry afu_entry() {
+CatalogEntry afu_entry(const std::string& profile) {
+  value_or_throw(sim::parse_profile(profile));
+  const auto open = [profile](unsigned) -> Result<std::unique_ptr<Device>> {
+    Result<std::unique_ptr<afu::AfuDevice>> device = open_afu({.profile = profile});
+    if (!device) {
+      return device.error();
+    }
+    return std::unique_ptr<Device>(std::move(*device));
+  };
   DeviceInfo info;
   info.name = "afu";
   info.modelled = true;
-  const Result<std::unique_ptr<Device>> device = open_simulated(1);
+  const Result<std::unique_ptr<Device>> device = open(1);
   info.available = device.ok();
   info.description = device ? (*device)->capabilities().description : device.error().message;
-  return {std::move(info), open_simulated, false};
+  return {std::move(info), open, false};
 }
 
 }  // namespace harpoon::app

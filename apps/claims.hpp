@@ -20,7 +20,7 @@ struct Claim {
 std::vector<Claim> judge_claims(const Experiment& experiment);
 
 /// The smallest count from which on `device` is never slower than `other`; nothing when the last
-/// count is lost. Both must have the same counts.
+/// count is lost. Counts that only one of them has are left out.
 std::optional<std::size_t> break_even(const bench::Series& device, const bench::Series& other);
 
 /// What a reader of the paper must know: its misprints, and what our figures are.

@@ -25,6 +25,7 @@ constexpr const char* kExitCodes =
     "Examples:\n"
     "  harpoon demo                        the paper's experiment, with a report\n"
     "  harpoon bench pairs --count 10000   ODE and every device on the same pairs\n"
+    "  harpoon afu                         the simulated AFU, format by format\n"
     "  harpoon devices                     what can compute here\n"
     "  harpoon selftest                    is every device right?";
 
@@ -97,6 +98,7 @@ void add_all_commands(CLI::App& root, Context& context) {
   add_bench(root, context);
   add_diamond(root, context);
   add_detect(root, context);
+  add_afu(root, context);
   add_devices(root, context);
   add_selftest(root, context);
   add_completion(root, context);

@@ -26,6 +26,7 @@ void add_bench_pairs(CLI::App& bench, Context& context);
 void add_bench_scene(CLI::App& bench, Context& context);
 void add_diamond(CLI::App& root, Context& context);
 void add_detect(CLI::App& root, Context& context);
+void add_afu(CLI::App& root, Context& context);
 void add_devices(CLI::App& root, Context& context);
 void add_selftest(CLI::App& root, Context& context);
 void add_completion(CLI::App& root, Context& context);

@@ -31,6 +31,7 @@ struct PairsOptions {
   std::string precision = "all";
   std::vector<unsigned> threads = {1};
   std::string device = "all";
+  std::string profile = kDefaultAfuProfile;
   unsigned rounds = 11;
   std::size_t spheres = 100000;
   std::uint64_t seed = 1;
@@ -115,7 +116,7 @@ void measure(const Context& context, const PairsOptions& options) {
   bench::PairsPlan plan = to_plan(options);
   require_memory(plan, options);
   require_outputs(options);
-  plan.devices = open_devices(options.device, options.threads);
+  plan.devices = open_devices(options.device, options.threads, options.profile);
   const std::vector<std::string> left_out = leave_out_slow(options, plan);
   if (options.copy) {
     plan.copy_threads = thread_counts(options.threads);
@@ -211,6 +212,9 @@ void add_selection(CLI::App& pairs, PairsOptions& options) {
       ->default_str("1");
   pairs.add_option("--device", options.device, "Device to compare with ODE")
       ->type_name(device_choices())
+      ->capture_default_str();
+  pairs.add_option("--profile", options.profile, "Link of the simulated AFU, as for `harpoon afu`")
+      ->type_name("PROFILE")
       ->capture_default_str();
 }
 

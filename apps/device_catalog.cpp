@@ -30,7 +30,7 @@ void open_entry(const CatalogEntry& entry, const std::vector<unsigned>& threads,
 
 }  // namespace
 
-std::vector<CatalogEntry> device_catalog() {
+std::vector<CatalogEntry> device_catalog(const std::string& afu_profile) {
   std::vector<CatalogEntry> entries;
   for (DeviceInfo& info : list_devices()) {
     const std::string name = info.name;
@@ -40,15 +40,16 @@ std::vector<CatalogEntry> device_catalog() {
       entries.push_back({std::move(info), [name](unsigned) { return open_device(name); }, false});
     }
   }
-  entries.push_back(afu_entry());
+  entries.push_back(afu_entry(afu_profile));
   return entries;
 }
 
 std::vector<bench::NamedDevice> open_devices(const std::string& selection,
-                                             const std::vector<unsigned>& threads) {
+                                             const std::vector<unsigned>& threads,
+                                             const std::string& afu_profile) {
   std::vector<bench::NamedDevice> opened;
   bool is_known = selection == "all";
-  for (const CatalogEntry& entry : device_catalog()) {
+  for (const CatalogEntry& entry : device_catalog(afu_profile)) {
     if (selection == "all" && entry.info.available) {
       open_entry(entry, threads, opened);
     } else if (selection == entry.info.name) {

@@ -19,14 +19,20 @@ struct CatalogEntry {
   bool has_threads = false;
 };
 
-/// Every device, available or not, cpu first.
-std::vector<CatalogEntry> device_catalog();
+/// The link of a simulated AFU, unless another is asked for.
+inline constexpr const char* kDefaultAfuProfile = "harp";
+
+/// Every device, available or not, cpu first. Throws CommandError (usage) for a link profile that
+/// does not parse.
+std::vector<CatalogEntry> device_catalog(const std::string& afu_profile = kDefaultAfuProfile);
 
 /// Opens `selection`, "all" or a name, with each of `threads` where the device has threads and once
 /// where it has none. "all" skips what is not available.
-/// Throws CommandError: usage for an unknown name, environment for one that is not available.
+/// Throws CommandError: usage for an unknown name or profile, environment for a device that is not
+/// available.
 std::vector<bench::NamedDevice> open_devices(const std::string& selection,
-                                             const std::vector<unsigned>& threads);
+                                             const std::vector<unsigned>& threads,
+                                             const std::string& afu_profile = kDefaultAfuProfile);
 
 /// `threads` with 0 replaced by the number of hardware threads, ascending, without repetitions.
 std::vector<unsigned> thread_counts(std::vector<unsigned> threads);

@@ -35,7 +35,7 @@ TEST(Command, PrintsItsVersionAndCommit) {
 TEST(Command, HelpIsEverywhereWithExamples) {
   const std::vector<std::vector<std::string>> commands = {
       {},          {"demo"},     {"bench"},      {"bench", "pairs"}, {"diamond"},
-      {"devices"}, {"selftest"}, {"completion"}, {"manual"}};
+      {"devices"}, {"selftest"}, {"completion"}, {"manual"},         {"afu"}};
   for (std::vector<std::string> command : commands) {
     command.push_back("--help");
     const Finished f = run_piped(command);
@@ -95,6 +95,87 @@ TEST(Devices, ListsCpuAndItsInstructionSets) {
   EXPECT_EQ(f.exit_code, 0);
   EXPECT_TRUE(std::regex_search(f.out, std::regex("\ncpu +yes +measured"))) << f.out;
   EXPECT_TRUE(contains(f.out, "Instruction sets of cpu here: ")) << f.out;
+}
+
+class AfuCommand : public testing::Test {
+ protected:
+  void SetUp() override {
+    if (!std::regex_search(run_piped({"devices"}).out, std::regex("\nafu +yes +modelled"))) {
+      GTEST_SKIP() << "no Verilator in this build";
+    }
+  }
+};
+
+TEST_F(AfuCommand, ShowsTheAfuAndEveryFormat) {
+  const Finished f = run_piped({"afu", "--pairs", "300"});
+  ASSERT_EQ(f.exit_code, 0) << f.err;
+  EXPECT_EQ(f.err, "");
+  EXPECT_TRUE(contains(f.out, "AFU ID   484152504f4f4e01")) << f.out;
+  EXPECT_TRUE(contains(f.out, "10 SCPUs, 10 index lanes"));
+  EXPECT_TRUE(contains(f.out, "Profile  harp: HARP v1"));
+  EXPECT_TRUE(std::regex_search(f.out, std::regex("\nempty batch +0 +0 +376 +- ")));
+  EXPECT_TRUE(std::regex_search(f.out, std::regex("\ndirect +300 ")));
+  EXPECT_TRUE(std::regex_search(f.out, std::regex("\nindexed, hits only +300 ")));
+  EXPECT_TRUE(contains(f.out, "7 free"));
+  EXPECT_TRUE(contains(f.out, "are modelled"));
+}
+
+TEST_F(AfuCommand, WritesTheSameAsJson) {
+  const Finished f = run_piped({"afu", "--pairs", "1000", "--hits", "100", "--indexed-hits", "0",
+                                "--profile", "harp,latency_ns=500,in_flight=32", "--json", "-"});
+  ASSERT_EQ(f.exit_code, 0) << f.err;
+  const Json root = Json::parse(f.out);
+  EXPECT_EQ(root.at("link").at("profile"), "harp");
+  EXPECT_EQ(root.at("link").at("lines_in_flight"), 32);
+  EXPECT_EQ(root.at("link").at("modelled"), true);
+  EXPECT_EQ(root.at("afu").at("scpus"), 10);
+  EXPECT_EQ(root.at("afu").at("formats").size(), 3U);
+  ASSERT_EQ(root.at("runs").size(), 5U);
+  const auto cycles = [&](int run) { return root.at("runs")[run].at("cycles").get<double>(); };
+  for (const Json& run : root.at("runs")) {
+    EXPECT_GT(run.at("cycles"), run.at("counters").at("cycles")) << run;
+    EXPECT_EQ(run.at("last_steps").size(), 7U);
+    EXPECT_GE(run.at("link_occupancy"), 0);
+    EXPECT_LE(run.at("link_occupancy"), 1);
+  }
+  EXPECT_EQ(root.at("runs")[1].at("format"), "direct");
+  EXPECT_EQ(root.at("runs")[1].at("hits"), 1000);
+  EXPECT_EQ(root.at("runs")[1].at("counters").at("lines_read"), 500);
+  EXPECT_EQ(root.at("runs")[3].at("hits"), 0);
+  EXPECT_LT(cycles(3), cycles(1)) << "16 index pairs a line and no hit, yet slower";
+  EXPECT_GT(cycles(4), 10 * cycles(1)) << "4 lines in flight and a barrier hardly cost anything";
+}
+
+TEST_F(AfuCommand, WritesAWaveformAndNamesABadProfile) {
+  const ScratchFolder folder;
+  const std::string vcd = (folder / "afu.vcd").string();
+  const Finished f = run_piped({"afu", "--pairs", "4", "--waveform", vcd});
+  ASSERT_EQ(f.exit_code, 0) << f.err;
+  EXPECT_TRUE(contains(f.out, vcd));
+  EXPECT_TRUE(contains(read_file(vcd), "$enddefinitions"));
+  for (const auto& command : {std::vector<std::string>{"afu"}, {"bench", "pairs"}}) {
+    std::vector<std::string> arguments = command;
+    arguments.insert(arguments.end(), {"--profile", "harp,speed=9"});
+    const Finished bad = run_piped(arguments);
+    EXPECT_EQ(bad.exit_code, 2) << bad.err;
+    EXPECT_TRUE(contains(bad.err, "speed=9")) << bad.err;
+  }
+}
+
+TEST_F(AfuCommand, OtherLinksCanBeMeasuredBesideOde) {
+  std::vector<double> ns;
+  for (const char* profile : {"harp", "harp,gbps=4"}) {
+    const Finished f =
+        run_piped({"bench", "pairs", "--count", "2000", "--rounds", "1", "--precision", "f32",
+                   "--device", "afu", "--profile", profile, "--json", "-"});
+    ASSERT_EQ(f.exit_code, 0) << f.err;
+    const Json root = Json::parse(f.out);
+    const Json& last = root.at("results").back();
+    EXPECT_EQ(last.at("device"), "afu");
+    EXPECT_EQ(last.at("modelled"), true);
+    ns.push_back(last.at("ns_per_pair"));
+  }
+  EXPECT_GT(ns[1], 1.7 * ns[0]) << "half the bandwidth";
 }
 
 TEST(SelftestCommand, PassesHere) {

@@ -55,8 +55,9 @@ TEST(CommandTree, HoldsEveryCommandAndOption) {
       EXPECT_FALSE(option.names.empty()) << command->path;
     }
   }
-  for (const char* path : {"harpoon", "harpoon demo", "harpoon bench", "harpoon bench pairs",
-                           "harpoon diamond", "harpoon devices", "harpoon selftest"}) {
+  for (const char* path :
+       {"harpoon", "harpoon demo", "harpoon bench", "harpoon bench pairs", "harpoon diamond",
+        "harpoon afu", "harpoon devices", "harpoon selftest"}) {
     EXPECT_NE(std::find(paths.begin(), paths.end(), path), paths.end()) << path;
   }
 }

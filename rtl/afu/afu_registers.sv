@@ -148,4 +148,7 @@ module afu_registers #(
     end
     if (read) rdata_o <= read_value;
   end
+`ifdef FORMAL
+  `include "afu_registers.svh"
+`endif
 endmodule

@@ -5,8 +5,10 @@
 
   (* anyconst *) logic [PTR+2:0] f_index;
   logic [PTR+2:0]   f_in_q, f_moved_q, f_out_q;   // items that entered, left the RAM, left
+  logic [PTR+2:0]   f_in_before_q;                // a cycle ago
   logic [Width-1:0] f_item_q;
   always_ff @(posedge clk_i) begin
+    f_in_before_q <= rst_ni ? f_in_q : '0;
     if (!rst_ni) begin
       f_in_q    <= '0;
       f_moved_q <= '0;
@@ -25,6 +27,8 @@
     fifo_level:     assert (write_q - read_q <= (PTR+1)'(Depth));
     fifo_conserves: assert (f_in_q - f_out_q == {2'b00, write_q - read_q} + (PTR+3)'(out_valid_q));
     fifo_empty:     assert (empty_o == (f_in_q == f_out_q));
+    if (f_in_before_q != f_out_q) fifo_prompt: assert (valid_o);
+    assert (f_in_before_q == f_in_q || f_in_before_q + 1'b1 == f_in_q);
     assert (f_in_q - f_moved_q == {2'b00, write_q - read_q});
     assert (f_in_q[PTR:0] == write_q);
     assert (f_moved_q[PTR:0] == read_q);

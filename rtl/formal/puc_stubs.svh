@@ -24,6 +24,7 @@ module index_lanes #(
   input logic [511:0] table_data_i, line_i,
   input logic [30:0] number_i,
   input logic [4:0] count_i,
+  input logic last_i, more_i,
   output logic ready_o, valid_o, index_error_o, idle_o,
   output logic [1:0] mask_o,
   output logic [511:0] pairs_o,
@@ -34,9 +35,9 @@ module index_lanes #(
 endmodule
 module scpu_array #(
   parameter int unsigned NumScpu = 10, parameter int unsigned TagWidth = 31,
-  parameter int unsigned Depth = 256, parameter int unsigned SplitBeats = 64
+  parameter int unsigned Depth = 256
 ) (
-  input logic clk_i, rst_ni, spread_i, valid_i, ready_i,
+  input logic clk_i, rst_ni, spread_i, more_i, valid_i, ready_i,
   input logic [1:0] mask_i,
   input logic [511:0] pairs_i,
   input logic [61:0] tags_i,

@@ -4,17 +4,23 @@
 // Lanes pairs a cycle are looked up in the sphere table and decided by scpu_cull (the exact miss
 // test without a square root). What survives, by index, is compacted to two pairs a cycle, looked
 // up again and handed to the SCPUs, which decide all over: the cull may err only towards keeping.
-// A line takes ceil(16 / Lanes) cycles. Credits reserve the place of every beat that enters.
+// What is left of a line that is too short for a slice of Lanes pairs waits for the next line, so
+// that every slice is full but the last. Credits reserve the place of every slice that enters.
 //
 //   line -> slice -> table (2) -> scpu_cull -> decisions -+
 //             +----> indices, numbers (queue) ------------+-> compact -> table (2) -> pairs
+//
+// `last_i`: nothing of this line is to wait; a line that is not the last has 16 pairs. The cull
+// lanes move all together or not at all; while `more_i` says that lines are on their way, they wait
+// up to Patience cycles for the next slice instead of running empty.
 //
 // `index_error_o` (sticky until `start_i`): a pair named a sphere at or beyond `sphere_count_i`.
 // Lanes is 1 to 16. `idle_o`: nothing inside.
 module index_lanes #(
   parameter int unsigned Lanes   = 10,
   parameter int unsigned Spheres = 16384,
-  parameter int unsigned Depth   = 128
+  parameter int unsigned Depth   = 128,
+  parameter int unsigned Patience = 4
 ) (
   input  logic         clk_i,
   input  logic         rst_ni,
@@ -29,6 +35,8 @@ module index_lanes #(
   input  logic [511:0] line_i,
   input  logic [30:0]  number_i,        // of the first pair in the line
   input  logic [4:0]   count_i,         // pairs in the line, 1 to 16
+  input  logic         last_i,
+  input  logic         more_i,
 
   output logic         valid_o,
   input  logic         ready_i,
@@ -64,35 +72,44 @@ module index_lanes #(
     .sphere_o     (port_sphere)
   );
 
-  // ---- slice: Lanes pairs of the line a cycle ----
-  logic [3:0]       place_q;      // first pair of the slice
-  logic             credit, issue, last_slice, slice_valid_q, all_home;
-  logic [4:0]       left;
-  logic [IDX-1:0]   slice, slice_q;
-  logic [Lanes-1:0] present, present_q;
-  logic [511+IDX:0] padded;
+  // ---- slice: the next Lanes pairs of a window, which is what was kept and then the line ----
+  localparam int unsigned KEEP  = (Lanes > 1) ? Lanes - 1 : 1;
+  localparam int unsigned PLACE = $clog2(KEEP + PER_LINE);
+  localparam int unsigned SELECT = $clog2(32*KEEP + 512 + IDX);
+  logic [PLACE-1:0]   place_q;    // of the slice's first pair; KEEP: nothing is kept
+  logic [32*KEEP-1:0] kept_q;
+  logic               credit, issue, used_up, slice_valid_q, all_home;
+  logic [5:0]         left;
+  logic [IDX-1:0]     slice, slice_q;
+  logic [Lanes-1:0]   present, present_q;
+  logic [32*KEEP+511+IDX:0] window;
 
-  assign left       = count_i - {1'b0, place_q};
-  assign last_slice = left <= 5'(Lanes);
-  assign issue      = valid_i & credit;
-  assign ready_o    = credit & last_slice;
-  assign padded     = {{IDX{1'b0}}, line_i};
-  assign slice      = padded[{1'b0, place_q, 5'd0} +: IDX];
+  assign left    = 6'(KEEP) + {1'b0, count_i} - 6'(place_q);
+  assign used_up = (left <= 6'(Lanes)) | (~last_i & (left < 6'(2*Lanes)));
+  assign issue   = valid_i & credit;
+  assign ready_o = credit & used_up;
+  assign window  = {{IDX{1'b0}}, line_i, kept_q};
+  assign slice   = window[SELECT'({place_q, 5'd0}) +: IDX];
   for (genvar g = 0; g < Lanes; g++) begin : gen_present
-    assign present[g] = 5'(g) < left;
+    assign present[g] = 6'(g) < left;
   end
 
   always_ff @(posedge clk_i) begin
-    if (!rst_ni) begin
-      place_q       <= '0;
+    if (!rst_ni || start_i) begin
+      place_q       <= PLACE'(KEEP);
       slice_valid_q <= 1'b0;
     end else begin
       slice_valid_q <= issue;
-      if (issue) place_q <= last_slice ? '0 : place_q + 4'(Lanes % PER_LINE);
+      if (issue) begin
+        if (~used_up) place_q <= place_q + PLACE'(Lanes);
+        else if (left <= 6'(Lanes)) place_q <= PLACE'(KEEP);
+        else place_q <= PLACE'(6'(KEEP + Lanes) - left);
+      end
     end
     if (issue) begin
       slice_q   <= slice;
       present_q <= present;
+      if (used_up) kept_q <= line_i[511 -: 32*KEEP];
     end
   end
 
@@ -117,13 +134,20 @@ module index_lanes #(
     else         fetch_q <= {fetch_q[0], slice_valid_q};
   end
   localparam int unsigned RUN = $clog2(scpu_pkg::CullLatency + 3);
-  logic           running, clk;
-  logic [RUN-1:0] run_q;
-  assign running = (run_q != '0) | fetch_q[1] | ~rst_ni;
+  localparam int unsigned PAUSE = $clog2(Patience + 1);
+  logic             step, running, clk;
+  logic [RUN-1:0]   run_q;
+  logic [PAUSE-1:0] pause_q;
+  logic             cull_rst_nq;   // a cycle later: their state is not looked at till then
+  always_ff @(posedge clk_i) cull_rst_nq <= rst_ni;
+  assign step    = fetch_q[1] | ~more_i | (pause_q == PAUSE'(Patience));
+  assign running = (step & ((run_q != '0) | fetch_q[1])) | ~cull_rst_nq;
   always_ff @(posedge clk_i) begin
     if (!rst_ni) run_q <= '0;
     else if (fetch_q[1]) run_q <= RUN'(scpu_pkg::CullLatency + 2);
-    else if (run_q != '0) run_q <= run_q - RUN'(1);
+    else if (step & (run_q != '0)) run_q <= run_q - RUN'(1);
+    if (!rst_ni || fetch_q[1]) pause_q <= '0;
+    else if (pause_q != PAUSE'(Patience)) pause_q <= pause_q + PAUSE'(1);
   end
   clock_gate u_gate (.clk_i, .enable_i(running), .clk_o(clk));
   for (genvar g = 0; g < Lanes; g++) begin : gen_lane
@@ -132,7 +156,7 @@ module index_lanes #(
     assign port_index[(2*g+1)*W +: W] = slice_q[32*g+16 +: W];
     scpu_cull u_cull (
       .clk_i   (clk),
-      .rst_ni,
+      .rst_ni  (cull_rst_nq),
       .valid_i (fetch_q[1]),
       .pair_i  (port_sphere[256*g +: 256]),
       .valid_o (decided[g]),
@@ -148,7 +172,7 @@ module index_lanes #(
   logic [30:0]      head_number;
   fifo #(.Width(Lanes), .Depth(Depth)) u_decisions (
     .clk_i, .rst_ni,
-    .valid_i (decided[0]),
+    .valid_i (step & decided[0] & cull_rst_nq),
     .ready_o (decision_ready),
     .data_i  (miss),
     .valid_o (head_valid),
@@ -160,7 +184,7 @@ module index_lanes #(
     .clk_i, .rst_ni,
     .valid_i (issue),
     .ready_o (queue_ready),
-    .data_i  ({number_i + 31'(place_q), present, slice}),
+    .data_i  ({number_i + 31'(place_q) - 31'(KEEP), present, slice}),
     .valid_o (head_queued),
     .ready_i (head_done),
     .data_o  ({head_number, head_present, head_slice}),
@@ -239,10 +263,13 @@ module index_lanes #(
   assign mask_o    = look_mask_q[2];
   assign numbers_o = look_number_q[2];
   assign pairs_o   = port_sphere[256*Lanes +: 512];
-  assign idle_o    = all_home & (look_valid_q == '0);
+  assign idle_o    = all_home & (look_valid_q == '0) & (place_q == PLACE'(KEEP));
 
   // the credits make these constant; they are outputs of general cells
   logic unused;
   assign unused = head_queued ^ decision_ready ^ queue_ready ^ decision_empty ^ queue_empty
                 ^ (^decided);
+`ifdef FORMAL
+  `include "index_lanes.svh"
+`endif
 endmodule

@@ -113,6 +113,9 @@ module puc #(
     .done_o         (collector_done)
   );
 
+  logic more;   // pairs are on their way, and worth waiting for
+  assign more = ~collector_done & ~barrier_i;
+
   // ---- numbering: pairs left, number of the next ----
   logic [31:0] left_q, number_q;
   always_ff @(posedge clk_i) begin
@@ -131,7 +134,8 @@ module puc #(
   logic [511:0] lane_pairs;
   logic [61:0]  lane_numbers;
   logic [31:0]  loaded_q;
-  assign lanes_valid = source_valid & indexed;
+  logic         table_loading_q;
+  assign lanes_valid = source_valid & indexed & ~table_loading_q;
   index_lanes #(.Lanes(Lanes), .Spheres(Spheres)) u_lanes (
     .clk_i, .rst_ni,
     .start_i        (start_q),
@@ -144,6 +148,8 @@ module puc #(
     .line_i         (source_data),
     .number_i       (number_q[30:0]),
     .count_i        ((left_q >= 32'(PER_LINE)) ? 5'(PER_LINE) : left_q[4:0]),
+    .last_i         (barrier_i | (left_q <= 32'(PER_LINE))),
+    .more_i         (more),
     .valid_o        (lane_beat_valid),
     .ready_i        (array_ready & indexed),
     .mask_o         (lane_mask),
@@ -153,7 +159,6 @@ module puc #(
     .idle_o         (lanes_idle)
   );
   // what was loaded counts once it is all there
-  logic table_loading_q;
   always_ff @(posedge clk_i) begin
     if (!cold_rst_ni || ((state_q == Judge) & forget_q & ~go_q)) begin
       loaded_q        <= '0;
@@ -179,6 +184,7 @@ module puc #(
   scpu_array #(.NumScpu(NumScpu), .Depth(Depth)) u_array (
     .clk_i, .rst_ni,
     .spread_i   (barrier_i),
+    .more_i     (more),
     .valid_i    (array_valid),
     .ready_o    (array_ready),
     .mask_i     (indexed ? lane_mask : {left_q > 32'd1, 1'b1}),

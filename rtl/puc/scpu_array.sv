@@ -3,21 +3,30 @@
 // The SCPUs are free-running pipelines of one pair a cycle and equal latency, so results return in
 // pair order without any sorting; a credit for a place in the result queue is taken before a beat
 // enters, so that nothing ever stalls inside. SCPUs work two at a time (slot 0 and slot 1); the
-// work moves on to the next two after SplitBeats beats (after every beat with `spread_i`), so N_col
-// pairs are split over all N. With NumScpu = 1 a beat of two takes two cycles. The clock of an SCPU
-// that holds no pair is gated.
+// work moves on to the next two after a turn (after every beat with `spread_i`), so N_col pairs are
+// split over all N. Turns are FirstTurn beats long and double whenever all have had one, up to
+// LastTurn: short batches are spread, long ones seldom change. With NumScpu = 1 a beat of two takes
+// two cycles.
+//
+// The SCPUs move all together or not at all. While `more_i` says that beats are on their way, they
+// wait up to Patience cycles for the next one instead of running empty. The clock of an SCPU that
+// holds no pair, or waits, is gated.
 //
 // `mask_i` says which of the two pairs are there (01 or 11); the tags travel along. Latency: that
-// of the SCPU plus 5. Legal: NumScpu = 1 or even, Depth a power of two above that latency.
+// of the SCPU plus 5, and the waiting. Legal: NumScpu = 1 or even, turns and Depth powers of two,
+// Depth above that latency.
 module scpu_array #(
   parameter int unsigned NumScpu    = 10,
   parameter int unsigned TagWidth   = 31,
   parameter int unsigned Depth      = 256,
-  parameter int unsigned SplitBeats = 64
+  parameter int unsigned FirstTurn  = 64,
+  parameter int unsigned LastTurn   = 1024,
+  parameter int unsigned Patience   = 4
 ) (
   input  logic                  clk_i,
   input  logic                  rst_ni,
   input  logic                  spread_i,
+  input  logic                  more_i,
   input  logic                  valid_i,
   output logic                  ready_o,
   input  logic [1:0]            mask_i,
@@ -33,7 +42,8 @@ module scpu_array #(
   localparam int unsigned SLOTS   = (NumScpu == 1) ? 1 : 2;
   localparam int unsigned COLUMNS = NumScpu / SLOTS;
   localparam int unsigned COL     = (COLUMNS > 1) ? $clog2(COLUMNS) : 1;
-  localparam int unsigned BEAT    = $clog2(SplitBeats);
+  localparam int unsigned BEAT    = $clog2(LastTurn);
+  localparam int unsigned PAUSE   = $clog2(Patience + 1);
   localparam int unsigned RUN     = $clog2(scpu_pkg::Latency + 3);
 
   if (NumScpu != 1 && NumScpu % 2 != 0) begin : gen_illegal
@@ -43,7 +53,7 @@ module scpu_array #(
   // ---- one beat in, for NumScpu = 1 in two halves ----
   logic                  issue, credit, last_half;
   logic [1:0]            issue_mask;
-  logic [511:0]          issue_pairs;
+  logic [256*SLOTS-1:0]  issue_pairs;
   logic [2*TagWidth-1:0] issue_tags;
 
   assign issue   = valid_i & credit;
@@ -55,8 +65,8 @@ module scpu_array #(
       else if (issue) half_q <= ~last_half;
     end
     assign last_half   = half_q | ~mask_i[1];
-    assign issue_mask  = 2'b01;
-    assign issue_pairs = half_q ? {256'd0, pairs_i[511:256]} : {256'd0, pairs_i[255:0]};
+    assign issue_mask  = {1'b0, half_q | mask_i[0]};
+    assign issue_pairs = half_q ? pairs_i[511:256] : pairs_i[255:0];
     assign issue_tags  = half_q ? {{TagWidth{1'b0}}, tags_i[2*TagWidth-1:TagWidth]} : tags_i;
   end else begin : gen_whole
     assign last_half   = 1'b1;
@@ -66,19 +76,37 @@ module scpu_array #(
   end
 
   // ---- which SCPUs ----
+  logic            turn_over;
   logic [COL-1:0]  column_q;
-  logic [BEAT-1:0] beat_q;
+  logic [BEAT-1:0] beat_q, last_beat_q;   // of the turn
+  assign turn_over = spread_i | (beat_q == last_beat_q);
   always_ff @(posedge clk_i) begin
     if (!rst_ni) begin
-      column_q <= '0;
-      beat_q   <= '0;
+      column_q    <= '0;
+      beat_q      <= '0;
+      last_beat_q <= BEAT'(FirstTurn - 1);
     end else if (issue) begin
-      beat_q <= beat_q + BEAT'(1);
-      if (spread_i | (&beat_q)) column_q <= (column_q == COL'(COLUMNS-1)) ? '0 : column_q + COL'(1);
+      beat_q <= turn_over ? '0 : beat_q + BEAT'(1);
+      if (turn_over) begin
+        column_q <= (column_q == COL'(COLUMNS-1)) ? '0 : column_q + COL'(1);
+        if (column_q == COL'(COLUMNS-1)) last_beat_q <= {last_beat_q[BEAT-2:0], 1'b1};
+      end
     end
   end
 
+  // ---- do they move in this cycle? ----
+  logic             step;
+  logic [PAUSE-1:0] pause_q;
+  assign step = issue | ~more_i | (pause_q == PAUSE'(Patience));
+  always_ff @(posedge clk_i) begin
+    if (!rst_ni || issue) pause_q <= '0;
+    else if (pause_q != PAUSE'(Patience)) pause_q <= pause_q + PAUSE'(1);
+  end
+
   // ---- the SCPUs ----
+  logic                   scpu_rst_nq;   // a cycle later: their state is not looked at till then
+  always_ff @(posedge clk_i) scpu_rst_nq <= rst_ni;
+
   logic [NumScpu-1:0]     done;
   logic [256*NumScpu-1:0] contact;
   for (genvar g = 0; g < NumScpu; g++) begin : gen_scpu
@@ -89,12 +117,12 @@ module scpu_array #(
     logic [RUN-1:0] run_q;
 
     assign mine    = issue & issue_mask[SLOT] & (column_q == COL'(COLUMN));
-    assign running = mine | (run_q != '0) | ~rst_ni;
+    assign running = (step & (mine | (run_q != '0))) | ~scpu_rst_nq;
     always_ff @(posedge clk_i) begin
       if (!rst_ni) begin
         start_q <= 1'b0;
         run_q   <= '0;
-      end else begin
+      end else if (step) begin
         start_q <= mine;
         if (mine) run_q <= RUN'(scpu_pkg::Latency + 2);
         else if (run_q != '0) run_q <= run_q - RUN'(1);
@@ -104,7 +132,7 @@ module scpu_array #(
     clock_gate u_gate (.clk_i, .enable_i(running), .clk_o(clk));
     scpu u_scpu (
       .clk_i     (clk),
-      .rst_ni,
+      .rst_ni    (scpu_rst_nq),
       .valid_i   (start_q),
       .pair_i    (pair_q),
       .valid_o   (done[g]),
@@ -125,7 +153,7 @@ module scpu_array #(
   end
   always_ff @(posedge clk_i) begin
     if (!rst_ni) merged_valid_q <= 1'b0;
-    else         merged_valid_q <= |done;
+    else         merged_valid_q <= step & (|done) & scpu_rst_nq;
     if (|done) merged_q <= merged;
   end
 
@@ -164,4 +192,7 @@ module scpu_array #(
   // the credits make these constant; they are outputs of general cells
   logic unused;
   assign unused = tag_valid ^ tag_ready ^ result_ready ^ tag_empty ^ result_empty;
+`ifdef FORMAL
+  `include "scpu_array.svh"
+`endif
 endmodule

@@ -27,6 +27,7 @@ execute_process(COMMAND ${HARPOON_VERILATOR} --getenv VERILATOR_ROOT
 # Verilator's run time, once for all models.
 add_library(harpoon_verilated STATIC EXCLUDE_FROM_ALL
   ${HARPOON_VERILATOR_ROOT}/include/verilated.cpp
+  ${HARPOON_VERILATOR_ROOT}/include/verilated_cov.cpp
   ${HARPOON_VERILATOR_ROOT}/include/verilated_threads.cpp)
 target_include_directories(harpoon_verilated SYSTEM PUBLIC
   ${HARPOON_VERILATOR_ROOT}/include ${HARPOON_VERILATOR_ROOT}/include/vltstd)

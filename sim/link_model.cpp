@@ -57,6 +57,7 @@ void LinkModel::reset() {
   data_.clear();
   writes_.clear();
   visible_.clear();
+  torn_.clear();
   read_out_.fill(false);
   write_out_.fill(false);
   reads_out_ = writes_out_ = 0;
@@ -88,7 +89,8 @@ void LinkModel::corrupt(Line& line) {
 }
 
 const AxiResponse& LinkModel::drive() {
-  response_ = {};
+  response_.ar_ready = response_.aw_ready = response_.w_ready = false;
+  response_.r_valid = response_.b_valid = false;
   if (strikes(FaultKind::hang, cycle_events_)) hung_ = true;
   if (strikes(FaultKind::reset, cycle_events_)) reset_pending_ = true;
   ++cycle_events_;
@@ -125,8 +127,9 @@ void LinkModel::deliver_read() {
   response_.r_resp = read.resp;
   if (const std::byte* const line = memory_.line(read.address); line != nullptr) {
     std::memcpy(response_.r_data.data(), line, sizeof(Line));
-  } else if (read.resp == kOkay) {
-    response_.r_resp = kDecodeError;
+  } else {
+    response_.r_data = {};
+    if (read.resp == kOkay) response_.r_resp = kDecodeError;
   }
   if (read.struck) corrupt(response_.r_data);
   fake_line(read.address, response_.r_data);
@@ -171,7 +174,7 @@ void LinkModel::transmit_write() {
     visible.high_half = false;
     late.low_half = false;
     late.at += fault_.amount;
-    visible_.push_back(late);
+    torn_.push_back(late);
   }
   if (performed) visible_.push_back(visible);
   if (acknowledged) acks_.push(ack);
@@ -180,15 +183,24 @@ void LinkModel::transmit_write() {
 }
 
 void LinkModel::make_visible() {
-  std::erase_if(visible_, [this](const Visible& write) {
+  while (!visible_.empty() && visible_.front().at <= now_) {
+    perform(visible_.front());
+    visible_.pop_front();
+  }
+  if (torn_.empty()) return;
+  std::erase_if(torn_, [this](const Visible& write) {
     if (write.at > now_) return false;
-    if (std::byte* const line = memory_.line(write.address); line != nullptr) {
-      const auto* const data = reinterpret_cast<const std::byte*>(write.data.data());
-      if (write.low_half) std::memcpy(line, data, 32);
-      if (write.high_half) std::memcpy(line + 32, data + 32, 32);
-    }
+    perform(write);
     return true;
   });
+}
+
+void LinkModel::perform(const Visible& write) {
+  std::byte* const line = memory_.line(write.address);
+  if (line == nullptr) return;
+  const auto* const data = reinterpret_cast<const std::byte*>(write.data.data());
+  if (write.low_half) std::memcpy(line, data, 32);
+  if (write.high_half) std::memcpy(line + 32, data + 32, 32);
 }
 
 void LinkModel::acknowledge() {

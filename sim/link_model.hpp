@@ -105,6 +105,7 @@ class LinkModel {
   void deliver_read();
   void transmit_write();
   void make_visible();
+  void perform(const Visible& write);
   void acknowledge();
   void accept_read(const AxiRequest& request);
   void accept_write(const AxiRequest& request);
@@ -129,7 +130,8 @@ class LinkModel {
   std::deque<std::pair<std::uint32_t, std::uint64_t>> addresses_;  // AW waiting for its W
   std::deque<Line> data_;                                          // W waiting for its AW
   std::deque<Write> writes_;                                       // waiting for the link
-  std::deque<Visible> visible_;
+  std::deque<Visible> visible_;                                    // in time order
+  std::vector<Visible> torn_;                                      // second halves, any order
   std::array<bool, 256> read_out_{}, write_out_{};
   std::uint32_t reads_out_ = 0, writes_out_ = 0;
   bool write_turn_ = false;

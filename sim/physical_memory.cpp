@@ -41,18 +41,18 @@ void PhysicalMemory::release(const afu::SharedMemory& memory) noexcept {
   for (const std::uint64_t address : mine->page_addresses) pages_.erase(address / kPageBytes);
   ::munmap(mine->data, mine->bytes);
   owned_.erase(mine);
-  last_page_ = ~std::uint64_t{0};
+  recent_.fill({});
 }
 
 std::byte* PhysicalMemory::line(std::uint64_t address) noexcept {
   const std::uint64_t page = address / kPageBytes;
-  if (page != last_page_) {
+  Recent& recent = recent_[page % recent_.size()];
+  if (page != recent.page) {
     const auto found = pages_.find(page);
     if (found == pages_.end()) return nullptr;
-    last_page_ = page;
-    last_data_ = found->second;
+    recent = {page, found->second};
   }
-  return last_data_ + address % kPageBytes;
+  return recent.data + address % kPageBytes;
 }
 
 }  // namespace harpoon::sim

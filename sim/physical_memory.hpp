@@ -3,6 +3,7 @@
 // Physical memory as the device sees it: 2 MB pages, scattered at random over a large address
 // space, so that an untranslated or wrongly translated address never works by luck.
 
+#include <array>
 #include <cstddef>
 #include <cstdint>
 #include <random>
@@ -31,8 +32,12 @@ class PhysicalMemory {
   std::unordered_map<std::uint64_t, std::byte*> pages_;  // physical page -> host address
   std::vector<afu::SharedMemory> owned_;
   std::mt19937_64 random_;
-  std::uint64_t last_page_ = ~std::uint64_t{0};  // one-entry cache
-  std::byte* last_data_ = nullptr;
+  /// Pages looked up last, each in the place that its number's low bits name.
+  struct Recent {
+    std::uint64_t page = ~std::uint64_t{0};
+    std::byte* data = nullptr;
+  };
+  std::array<Recent, 64> recent_;
 };
 
 }  // namespace harpoon::sim

@@ -4,6 +4,7 @@
 #include <utility>
 
 #include "Vharpoon_afu.h"
+#include "coverage.hpp"
 #include "verilated.h"
 #include "waveform.hpp"
 
@@ -108,6 +109,7 @@ SimulatedLink::SimulatedLink(std::unique_ptr<State> state) : state_(std::move(st
 // is: it must be this model's, and afterwards one that lives on.
 SimulatedLink::~SimulatedLink() {
   state_->top.final();
+  write_coverage(state_->context);
   Verilated::threadContextp(&state_->context);
   state_.reset();
   Verilated::threadContextp(Verilated::defaultContextp());
@@ -151,6 +153,10 @@ void SimulatedLink::write_register(std::uint32_t offset, std::uint32_t value) {
   }
   top.s_axi_control_awvalid = 0;
   top.s_axi_control_wvalid = 0;
+  // The host takes the answer a cycle after it came.
+  top.s_axi_control_bready = 0;
+  state_->cycle();
+  top.s_axi_control_bready = 1;
   while (state_->now < end) state_->cycle();
 }
 
@@ -169,6 +175,7 @@ std::uint32_t SimulatedLink::read_register(std::uint32_t offset) {
       break;
     }
   }
+  state_->cycle();
   top.s_axi_control_rready = 1;
   do {
     state_->cycle();

@@ -13,6 +13,7 @@
 #include "collide/scalar.hpp"
 #include "hls/designs.hpp"
 #include "rtl/floats.hpp"
+#include "sim/coverage.hpp"
 #include "verilated.h"
 
 namespace harpoon {
@@ -160,6 +161,7 @@ TEST(GeneratedColliders, EqualTheScalarOnes) {
     EXPECT_GT(checker->hits(), kVectors / 20);
     EXPECT_GT(checker->misses(), kVectors / 20);
   }
+  sim::write_coverage(context);
 }
 
 }  // namespace

@@ -13,6 +13,7 @@
 #include "Vfp_cells.h"
 #include "hls/cells.hpp"
 #include "rtl/floats.hpp"
+#include "sim/coverage.hpp"
 #include "verilated.h"
 
 namespace harpoon {
@@ -69,6 +70,11 @@ struct Reached {
 
 class Cells {
  public:
+  Cells() = default;
+  Cells(const Cells&) = delete;
+  Cells& operator=(const Cells&) = delete;
+  ~Cells() { sim::write_coverage(context_); }
+
   /// One clock cycle with these operands, then every output that has one is checked.
   void step(Operands in) {
     past_[now_ % past_.size()] = in;

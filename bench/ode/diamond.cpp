@@ -4,7 +4,7 @@
 #include <ode/ode.h>
 
 #include <cmath>
-#include <cstdint>
+#include <numeric>
 
 #include "bench/algorithm1.hpp"
 
@@ -16,12 +16,9 @@ constexpr double kBounce = 1.0;
 constexpr double kBounceVelocity = 0.1;
 constexpr double kSoftConstraintForceMixing = 0.001;
 
-// A geom's data pointer holds its sphere's index.
-void* to_data(std::size_t index) {
-  return reinterpret_cast<void*>(static_cast<std::uintptr_t>(index));
-}
+// A geom's data pointer points to its sphere's index.
 std::uint32_t index_of(dGeomID geom) {
-  return static_cast<std::uint32_t>(reinterpret_cast<std::uintptr_t>(dGeomGetData(geom)));
+  return *static_cast<const std::uint32_t*>(dGeomGetData(geom));
 }
 
 SphereF64 sphere_of(dGeomID geom) {
@@ -83,13 +80,15 @@ DiamondWorld::DiamondWorld(const DiamondParameters& parameters)
   dMass mass;
   dMassSetSphereTotal(&mass, parameters.mass, parameters.radius);
   const double spacing = 2 * parameters.radius + parameters.d_sph;
+  indices_.resize(diamond_sphere_count(parameters.h_max));
+  std::iota(indices_.begin(), indices_.end(), 0U);
   for (const Point& p : diamond_points(parameters.h_max, spacing)) {
     dBodyID body = dBodyCreate(world_);
     dBodySetPosition(body, p[0], p[1], p[2]);
     dBodySetMass(body, &mass);
     dGeomID geom = dCreateSphere(space_, parameters.radius);
     dGeomSetBody(geom, body);
-    dGeomSetData(geom, to_data(bodies_.size()));
+    dGeomSetData(geom, &indices_[bodies_.size()]);
     bodies_.push_back(body);
   }
 }

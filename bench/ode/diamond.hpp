@@ -67,6 +67,7 @@ class DiamondWorld {
   dxWorld* world_;
   dxSpace* space_;
   dxJointGroup* contacts_;
+  std::vector<std::uint32_t> indices_;  // geoms point into it
   std::vector<dxBody*> bodies_;
   const Observer* observer_ = nullptr;
 };

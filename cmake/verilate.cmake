@@ -10,9 +10,10 @@
 include_guard(GLOBAL)  # what later includers read is cached: they are in other folders
 
 find_program(HARPOON_VERILATOR verilator)
-if(NOT HARPOON_VERILATOR)
+find_program(HARPOON_MAKE make DOC "What Verilator builds its models with")
+if(NOT HARPOON_VERILATOR OR NOT HARPOON_MAKE)
   set(HARPOON_HAVE_VERILATOR OFF CACHE INTERNAL "May harpoon_verilate be called?")
-  message(STATUS "harpoon: no Verilator: the RTL is neither built nor tested")
+  message(STATUS "harpoon: no Verilator, or no make for it: the RTL is neither built nor tested")
   return()
 endif()
 set(HARPOON_HAVE_VERILATOR ON CACHE INTERNAL "May harpoon_verilate be called?")

@@ -29,7 +29,7 @@ struct SceneOptions {
 };
 
 std::vector<std::string> peers_of(const std::vector<std::string>& names) {
-  const std::vector<std::string> known = bench::scene_peers();
+  std::vector<std::string> known = bench::scene_peers();
   std::vector<std::string> peers;
   for (const std::string& name : names) {
     if (name == "none") continue;

@@ -1,5 +1,6 @@
 #include "waveform.hpp"
 
+#include <cinttypes>
 #include <cmath>
 
 #include "Vharpoon_afu.h"
@@ -75,7 +76,7 @@ bool Waveform::open(const std::string& path, double clock_mhz) {
 }
 
 void Waveform::sample(std::uint64_t cycle, const Vharpoon_afu& top) {
-  std::fprintf(file_.get(), "#%llu\n", static_cast<unsigned long long>(cycle * period_ps_));
+  std::fprintf(file_.get(), "#%" PRIu64 "\n", cycle * period_ps_);
   for (std::size_t i = 0; i < kSignals.size(); ++i) {
     const std::uint64_t value = kSignals[i].value(top);
     if (!first_ && value == last_[i]) continue;

@@ -37,7 +37,7 @@ dSpaceID make_space(const std::string& name, std::span<const Sphere> spheres) {
 
 class OdeEngine final : public SceneEngine {
  public:
-  OdeEngine(std::span<const Sphere> spheres, std::string space)
+  OdeEngine(std::span<const Sphere> spheres, const std::string& space)
       : name_("ode " + space), space_(make_space(space, spheres)) {
     for (const Sphere& s : spheres) {
       geoms_.push_back(dCreateSphere(space_, static_cast<dReal>(s.r)));

@@ -44,7 +44,7 @@ void put_limits(Package& out) {
   out.bits("AFU_ID_HIGH", 64, contract::kAfuIdHigh);
   out.bits("SPL_ID", 32, contract::kSplId);
   out.bits("CHECK_SEED", 64, contract::kCheckSeed);
-  out.number("CHECK_LSB", contract::kCheckOffset * 8);
+  out.number("CHECK_LSB", std::uint64_t{contract::kCheckOffset} * 8);
 }
 
 void put_codes(Package& out) {
@@ -80,7 +80,8 @@ void put_places(Package& out) {
     out.bits(fmt::format("REG_{}", r.name), 16, r.offset);
   for (const contract::Record& record : contract::kRecords) {
     for (const contract::Field& field : record.fields)
-      out.number(fmt::format("{}_{}_LSB", record.name, field.name), field.offset * 8);
+      out.number(fmt::format("{}_{}_LSB", record.name, field.name),
+                 std::uint64_t{field.offset} * 8);
   }
   out.bits("SPL_DSM_ID_LINE", 6, contract::kSplDsmIdLine);
   out.bits("SPL_DSM_FAULT_LINE", 6, contract::kSplDsmFaultLine);

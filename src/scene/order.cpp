@@ -71,7 +71,7 @@ struct Chunks {
       : bodies(all),
         count(means.threads() == 1 || all < kParallelBodies
                   ? 1
-                  : std::min<std::size_t>(4 * means.threads(), all / (kParallelBodies / 4))) {}
+                  : std::min(std::size_t{4} * means.threads(), all / (kParallelBodies / 4))) {}
   [[nodiscard]] std::size_t begin(std::size_t chunk) const noexcept {
     return bodies * chunk / count;
   }

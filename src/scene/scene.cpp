@@ -98,17 +98,23 @@ namespace {
 template <class Real>
 using StateOf = typename SceneOf<Real>::State;
 
+/// Bits, not values: a NaN that stays is no change, a zero of another sign is one.
+template <class Real>
+bool same_bits(const void* a, const SphereOf<Real>* b, std::size_t spheres) {
+  return std::memcmp(a, static_cast<const void*>(b), spheres * sizeof *b) == 0;
+}
+
 /// True when the view holds exactly the scene's spheres, bit by bit.
 template <class Real>
 bool same_spheres(const BodiesOf<Real>& bodies, const std::vector<SphereOf<Real>>& spheres) {
   const scene::Source<Real> source{bodies.x,    bodies.y, bodies.z, bodies.r, bodies.stride_bytes,
                                    bodies.count};
   if (source.records()) {
-    return std::memcmp(bodies.x, spheres.data(), spheres.size() * sizeof spheres[0]) == 0;
+    return same_bits(bodies.x, spheres.data(), spheres.size());
   }
   for (std::size_t i = 0; i < bodies.count; ++i) {
     const SphereOf<Real> b = source[i];
-    if (std::memcmp(&b, &spheres[i], sizeof b) != 0) return false;
+    if (!same_bits(&b, &spheres[i], 1)) return false;
   }
   return true;
 }
@@ -366,7 +372,7 @@ template <class Real>
 std::optional<Error> SceneOf<Real>::move(std::uint32_t id, const SphereOf<Real>& sphere) noexcept {
   State& s = *state_;
   if (!s.has(id)) return no_such_body();
-  if (std::memcmp(&s.spheres[id], &sphere, sizeof sphere) == 0) return std::nullopt;
+  if (same_bits(&s.spheres[id], &sphere, 1)) return std::nullopt;
   s.spheres[id] = sphere;
   s.moved = true;
   return std::nullopt;

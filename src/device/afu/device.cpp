@@ -314,7 +314,7 @@ Result<Outcome> Afu::run_batch(const Batch& batch) {
 }
 
 Result<Outcome> Afu::run_pairs(const PairBatch<float>& batch) {
-  const std::uint64_t most = limit(c::kPairBytes + c::kContactBytes, 3 * 4096);
+  const std::uint64_t most = limit(c::kPairBytes + c::kContactBytes, std::uint64_t{3} * 4096);
   if (options_.hits_only) {
     HitsJob job(batch, most);
     return run_job(job, c::Format::direct_hits);
@@ -329,7 +329,7 @@ Result<Outcome> Afu::run_indexed(const IndexedBatch<float>& batch) {
       return index_error(i, batch.pairs[i], batch.spheres.size());
   }
   const std::uint32_t table = service_->identity().table_spheres;
-  const std::uint64_t fixed = 3 * 4096 + std::uint64_t{table} * c::kSphereBytes;
+  const std::uint64_t fixed = std::uint64_t{3} * 4096 + std::uint64_t{table} * c::kSphereBytes;
   IndexedJob job(batch, limit(4 + c::kContactBytes, fixed), table);
   return run_job(job, c::Format::indexed_hits);
 }
@@ -399,7 +399,7 @@ std::optional<Error> Afu::transact(Job& job, AfuReport& report) {
       report.last_steps = running->steps();
     }
     running.reset();
-    if (prepared) running.emplace(std::move(*prepared));
+    if (prepared) running.emplace(*prepared);
     slot = 1 - slot;
     layout = layout ? job.next() : std::nullopt;
   }

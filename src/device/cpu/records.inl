@@ -130,7 +130,7 @@ HWY_INLINE void transpose_block_pairs(Quad<Vector<double>>& q) {
 
 /// Row `row` (0 to 3) of the records: the first and the second half of some of them, one block or
 /// one pair of blocks each.
-template <int row>
+template <std::size_t row>
 HWY_INLINE void load_row(const float* from, Vector<float>& first, Vector<float>& second) {
   const Tag<float> d;
   constexpr std::size_t kLanes = hn::MaxLanes(d);
@@ -145,7 +145,7 @@ HWY_INLINE void load_row(const float* from, Vector<float>& first, Vector<float>&
   }
 }
 
-template <int row>
+template <std::size_t row>
 HWY_INLINE void load_row(const double* from, Vector<double>& first, Vector<double>& second) {
   const Tag<double> d;
   const double* low = from + 8 * row;
@@ -158,7 +158,7 @@ HWY_INLINE void load_row(const double* from, Vector<double>& first, Vector<doubl
   }
 }
 
-template <int row>
+template <std::size_t row>
 HWY_INLINE void store_row(Vector<float> first, Vector<float> second, float* to) {
   const Tag<float> d;
   constexpr std::size_t kLanes = hn::MaxLanes(d);
@@ -172,7 +172,7 @@ HWY_INLINE void store_row(Vector<float> first, Vector<float> second, float* to) 
   }
 }
 
-template <int row>
+template <std::size_t row>
 HWY_INLINE void store_row(Vector<double> first, Vector<double> second, double* to) {
   const Tag<double> d;
   double* low = to + 8 * row;

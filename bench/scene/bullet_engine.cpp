@@ -12,6 +12,11 @@
 namespace harpoon::bench {
 namespace {
 
+/// Takes every pair.
+struct AllPairs final : btOverlapCallback {
+  bool processOverlap(btBroadphasePair&) override { return true; }
+};
+
 class BulletEngine final : public SceneEngine {
  public:
   explicit BulletEngine(std::span<const Sphere> spheres)
@@ -28,6 +33,9 @@ class BulletEngine final : public SceneEngine {
     }
   }
   ~BulletEngine() override {
+    // Removing an object looks through all pairs: with pairs left that takes minutes.
+    AllPairs all;
+    world_.getPairCache()->processAllOverlappingPairs(&all, &dispatcher_);
     for (const auto& object : objects_) world_.removeCollisionObject(object.get());
   }
 

@@ -4,6 +4,7 @@
 
 #include <CLI/CLI.hpp>
 #include <cstdio>
+#include <filesystem>
 
 #include "apps/command.hpp"
 #include "apps/exit_code.hpp"
@@ -12,6 +13,8 @@
 #include "apps/options.hpp"
 #include "apps/progress.hpp"
 #include "apps/table.hpp"
+#include "bench/scene/figures.hpp"
+#include "bench/scene/scaling.hpp"
 #include "bench/scene/scene_bench.hpp"
 
 namespace harpoon::app {
@@ -26,7 +29,13 @@ struct SceneOptions {
   std::vector<std::string> against = {"none"};
   std::uint64_t seed = 1;
   std::string json;
+  bool scaling = false;
+  std::string write_docs;
 };
+
+/// Names of the files that --write-docs makes.
+constexpr const char* kFiguresFile = "scene-figures.md";
+constexpr const char* kPlotFile = "scene-scaling.svg";
 
 std::vector<std::string> peers_of(const std::vector<std::string>& names) {
   std::vector<std::string> known = bench::scene_peers();
@@ -73,6 +82,25 @@ std::string describe(const Terminal& terminal, const bench::SceneOutcome& outcom
   return text;
 }
 
+/// Writes to the file, or to standard output.
+void deliver_json(const std::string& file, const std::string& json) {
+  if (file == "-") {
+    fmt::print("{}", json);
+  } else if (!file.empty()) {
+    write_file(file, json);
+    fmt::print("{}\n", file);
+  }
+}
+
+void require_outputs(const SceneOptions& options) {
+  if (!options.json.empty() && options.json != "-") require_writable_file(options.json, "--json");
+  if (!options.write_docs.empty()) require_writable_folder(options.write_docs, "--write-docs");
+}
+
+[[noreturn]] void disagree() {
+  throw CommandError(ExitCode::failure, "the engines do not agree on the number of contacts");
+}
+
 void measure(const Context& context, const SceneOptions& options) {
   bench::ScenePlan plan;
   plan.kind = *bench::parse_world_kind(options.kind);
@@ -82,27 +110,48 @@ void measure(const Context& context, const SceneOptions& options) {
   plan.f64 = options.precision == "f64";
   plan.seed = options.seed;
   plan.against = peers_of(options.against);
-  const bool json_on_stdout = options.json == "-";
-  if (!options.json.empty() && !json_on_stdout) require_writable_file(options.json, "--json");
+  require_outputs(options);
   const auto outcome = [&] {
     Progress progress(context.terminal);
     const auto share = [&](double done) { progress.show(done, "measuring"); };
     return value_or_throw(bench::run_scene(plan, share, is_interrupted));
   }();
   throw_if_interrupted();
-  fmt::print(json_on_stdout ? stderr : stdout, "{}", describe(context.terminal, outcome));
-  if (!options.json.empty()) {
-    const std::string json =
-        bench::scene_json(plan, outcome, bench::describe_machine(), context.command_line);
-    if (json_on_stdout) {
-      fmt::print("{}", json);
-    } else {
-      write_file(options.json, json);
-      fmt::print("{}\n", options.json);
-    }
+  fmt::print(options.json == "-" ? stderr : stdout, "{}", describe(context.terminal, outcome));
+  deliver_json(options.json,
+               bench::scene_json(plan, outcome, bench::describe_machine(), context.command_line));
+  if (!outcome.counts_agree) disagree();
+}
+
+void measure_scaling(const Context& context, const SceneOptions& options, bool all_kinds) {
+  bench::ScalingPlan plan;
+  plan.kinds = {bench::WorldKind::gas, bench::WorldKind::packed, bench::WorldKind::polydisperse,
+                bench::WorldKind::bed, bench::WorldKind::clusters};
+  if (!all_kinds) plan.kinds = {*bench::parse_world_kind(options.kind)};
+  plan.most_bodies = options.bodies;
+  plan.frames = options.frames;
+  plan.threads = options.threads;
+  plan.f64 = options.precision == "f64";
+  plan.seed = options.seed;
+  require_outputs(options);
+  const auto points = [&] {
+    Progress progress(context.terminal);
+    const auto share = [&](double done) { progress.show(done, "measuring"); };
+    return value_or_throw(bench::run_scaling(plan, share, is_interrupted));
+  }();
+  throw_if_interrupted();
+  const bench::Machine machine = bench::describe_machine();
+  const std::string text =
+      bench::scaling_markdown(points, machine, context.command_line, kPlotFile);
+  fmt::print(options.json == "-" ? stderr : stdout, "{}", text);
+  deliver_json(options.json, bench::scaling_json(plan, points, machine, context.command_line));
+  if (!options.write_docs.empty()) {
+    const std::filesystem::path folder = options.write_docs;
+    write_file(folder / kFiguresFile, text);
+    write_file(folder / kPlotFile, bench::scaling_svg(points));
   }
-  if (!outcome.counts_agree) {
-    throw CommandError(ExitCode::failure, "the engines do not agree on the number of contacts");
+  for (const bench::ScalingPoint& point : points) {
+    if (!point.outcome.counts_agree) disagree();
   }
 }
 
@@ -140,14 +189,27 @@ void add_bench_scene(CLI::App& bench, Context& context) {
       ->capture_default_str();
   scene->add_option("--json", options->json, "Write the results as JSON; - for standard output")
       ->type_name("FILE");
+  auto* const scaling =
+      scene->add_flag("--scaling", options->scaling,
+                      "Sizes from 1,000 to --bodies, all kinds or the one named, without peers");
+  scene
+      ->add_option("--write-docs", options->write_docs,
+                   "With --scaling: write the tables and the plot of docs/ to this folder")
+      ->type_name("DIR")
+      ->needs(scaling);
   scene->footer(
       "Every body moves by 2 % of its radius per frame. Figures are medians over frames in\n"
       "milliseconds; the floor is what must be read and written at least.\n\n"
       "Examples:\n"
       "  harpoon bench scene --kind packed --against bullet,embree\n"
-      "  harpoon bench scene --bodies 1000000 --threads 2 --json scene.json");
-  scene->callback(
-      [&context, options] { context.run = [&context, options] { measure(context, *options); }; });
+      "  harpoon bench scene --bodies 1000000 --threads 2 --json scene.json\n"
+      "  harpoon bench scene --scaling --bodies 4000000 --write-docs docs");
+  scene->callback([&context, options, scene] {
+    const bool all_kinds = scene->count("--kind") == 0;
+    context.run = [&context, options, all_kinds] {
+      options->scaling ? measure_scaling(context, *options, all_kinds) : measure(context, *options);
+    };
+  });
 }
 
 }  // namespace harpoon::app

@@ -13,6 +13,11 @@
 
 namespace harpoon::bench {
 
+/// Milliseconds of the stages of Harpoon's stateless call.
+struct StageMs {
+  double survey = 0, order = 0, search = 0, contacts = 0;
+};
+
 /// Wall-clock milliseconds and counts of one frame.
 struct EngineFrame {
   double update_ms = 0;  ///< poses into the engine, its structure brought up to date
@@ -20,6 +25,7 @@ struct EngineFrame {
   double narrow_ms = 0;  ///< contacts made
   std::uint64_t pairs = 0;
   std::uint64_t contacts = 0;
+  StageMs stages = {};  ///< all zero where an engine has others
 
   [[nodiscard]] double total_ms() const { return update_ms + broad_ms + narrow_ms; }
 };

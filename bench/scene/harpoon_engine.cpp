@@ -64,6 +64,7 @@ class HarpoonEngine final : public SceneEngine {
     f.broad_ms = t.search_ns * 1e-6;
     f.narrow_ms = t.contacts_ns * 1e-6;
     f.update_ms = total_ns * 1e-6 - f.broad_ms - f.narrow_ms;
+    f.stages = {t.survey_ns * 1e-6, t.order_ns * 1e-6, f.broad_ms, f.narrow_ms};
     return f;
   }
 

@@ -58,6 +58,7 @@ Engines make_engines(const ScenePlan& plan, std::span<const Sphere> spheres,
 /// What one engine did so far.
 struct Record {
   std::vector<double> total, update, broad, narrow;
+  std::vector<double> survey, order;
   EngineFrame last;
 
   void add(const EngineFrame& f) {
@@ -65,6 +66,8 @@ struct Record {
     update.push_back(f.update_ms);
     broad.push_back(f.broad_ms);
     narrow.push_back(f.narrow_ms);
+    survey.push_back(f.stages.survey);
+    order.push_back(f.stages.order);
   }
 };
 
@@ -77,6 +80,10 @@ SceneRow to_row(const SceneEngine& engine, const Record& record, std::size_t bod
   row.update_ms = summarize(record.update).median;
   row.broad_ms = summarize(record.broad).median;
   row.narrow_ms = summarize(record.narrow).median;
+  if (record.last.stages.order > 0) {
+    row.stages = {summarize(record.survey).median, summarize(record.order).median, row.broad_ms,
+                  row.narrow_ms};
+  }
   row.pairs = record.last.pairs;
   row.contacts = record.last.contacts;
   const bool f64 = row.precision == "f64";
@@ -140,8 +147,7 @@ Result<SceneOutcome> run_scene(const ScenePlan& plan, const std::function<void(d
   return outcome;
 }
 
-std::string scene_json(const ScenePlan& plan, const SceneOutcome& outcome, const Machine& machine,
-                       const std::string& command) {
+Json scene_results(const ScenePlan& plan, const SceneOutcome& outcome) {
   Json results = Json::array();
   for (const SceneRow& row : outcome.rows) {
     results.push_back({{"engine", row.engine},
@@ -157,7 +163,18 @@ std::string scene_json(const ScenePlan& plan, const SceneOutcome& outcome, const
                        {"pairs", row.pairs},
                        {"contacts", row.contacts},
                        {"bytes_floor", row.bytes_floor}});
+    if (row.stages.order > 0) {
+      results.back()["stages_ms"] = {{"survey", row.stages.survey},
+                                     {"order", row.stages.order},
+                                     {"search", row.stages.search},
+                                     {"contacts", row.stages.contacts}};
+    }
   }
+  return results;
+}
+
+std::string scene_json(const ScenePlan& plan, const SceneOutcome& outcome, const Machine& machine,
+                       const std::string& command) {
   const Json out = {{"machine", machine_json(machine)},
                     {"commit", build_commit()},
                     {"date", timestamp()},
@@ -166,7 +183,7 @@ std::string scene_json(const ScenePlan& plan, const SceneOutcome& outcome, const
                     {"seed", plan.seed},
                     {"counts_agree", outcome.counts_agree},
                     {"notes", outcome.notes},
-                    {"results", results}};
+                    {"results", scene_results(plan, outcome)}};
   return out.dump(2) + "\n";
 }
 

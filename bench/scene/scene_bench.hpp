@@ -9,7 +9,9 @@
 #include <vector>
 
 #include "bench/interrupt.hpp"
+#include "bench/json.hpp"
 #include "bench/machine.hpp"
+#include "bench/scene/engine.hpp"
 #include "bench/scene/world.hpp"
 #include "bench/stats.hpp"
 #include "harpoon/error.hpp"
@@ -40,6 +42,7 @@ struct SceneRow {
   std::uint64_t pairs = 0, contacts = 0;              ///< of the last frame
   /// Bytes that any engine must move: each body read, each contact written, once.
   std::uint64_t bytes_floor = 0;
+  StageMs stages;      ///< medians; all zero but for Harpoon's stateless calls
   double speedup = 0;  ///< of Harpoon's stateless call over this row: ratio of medians
 };
 
@@ -52,6 +55,9 @@ struct SceneOutcome {
 /// Errors: the first one of an engine.
 Result<SceneOutcome> run_scene(const ScenePlan& plan, const std::function<void(double)>& share,
                                const Interrupted& interrupted);
+
+/// The elements of `results` for a plan's outcome.
+Json scene_results(const ScenePlan& plan, const SceneOutcome& outcome);
 
 /// The JSON object documented in docs/scene.md, indented, with a final newline.
 std::string scene_json(const ScenePlan& plan, const SceneOutcome& outcome, const Machine& machine,

@@ -3,8 +3,9 @@
 
 #include <gtest/gtest.h>
 
-#include <array>
+#include <algorithm>
 #include <cmath>
+#include <map>
 
 #include "apps/files.hpp"
 #include "apps/process.hpp"
@@ -103,7 +104,38 @@ TEST(BenchSceneCommand, WritesOneResultForEachEngine) {
   }
 }
 
+TEST(BenchSceneCommand, ScalingWritesEverySizeAndTheDocs) {
+  const ScratchFolder folder;
+  const Finished f = run_piped({"bench", "scene", "--scaling", "--bodies", "2500", "--frames", "2",
+                                "--json", "-", "--write-docs", folder.string()});
+  ASSERT_EQ(f.exit_code, 0) << f.err;
+  const Json json = Json::parse(f.out);
+  std::map<std::string, std::vector<int>> sizes;
+  for (const Json& result : json.at("results")) {
+    expect_result(result, result.at("kind"), result.at("bodies"));
+    if (result.at("engine") == "harpoon") {
+      sizes[result.at("kind")].push_back(result.at("bodies"));
+      for (const char* stage : {"survey", "order", "search", "contacts"}) {
+        EXPECT_GT(result.at("stages_ms").at(stage), 0);
+      }
+    }
+  }
+  EXPECT_EQ(sizes.size(), 5U);
+  for (const auto& [kind, of_kind] : sizes) {
+    EXPECT_EQ(of_kind, (std::vector<int>{1000, 2500})) << kind;
+  }
+  const std::string text = read_file(folder / "scene-figures.md");
+  EXPECT_TRUE(contains(text, "## packed"));
+  EXPECT_TRUE(contains(text, "| search |"));
+  EXPECT_TRUE(contains(text, "scene-scaling.svg"));
+  const std::string plot = read_file(folder / "scene-scaling.svg");
+  EXPECT_EQ(plot.rfind("<svg ", 0), 0U);
+  EXPECT_EQ(plot.substr(plot.size() - 7), "</svg>\n");
+  EXPECT_EQ(std::count(plot.begin(), plot.end(), '<'), std::count(plot.begin(), plot.end(), '>'));
+}
+
 TEST(BenchSceneCommand, WrongUsageIsExitCode2) {
+  EXPECT_EQ(run_piped({"bench", "scene", "--write-docs", "docs"}).exit_code, 2);
   EXPECT_EQ(run_piped({"bench", "scene", "--kind", "soup"}).exit_code, 2);
   const Finished f = run_piped({"bench", "scene", "--against", "abacus"});
   EXPECT_EQ(f.exit_code, 2);

@@ -14,6 +14,7 @@
 #include "hwy/foreach_target.h"
 #include "hwy/highway.h"
 
+#include "base/instruction_set.hpp"
 #include "collide/simd.inl"
 
 HWY_BEFORE_NAMESPACE();
@@ -808,6 +809,19 @@ HWY_INLINE void load_block(const SphereOf<Real>* bodies, const std::uint32_t* id
   }
 }
 
+/// Pairs ahead of the one in work whose bodies are fetched.
+constexpr std::size_t kFetchAhead = 48;
+
+/// Where positions are ids, bodies lie in no order: their loads are begun long before their use.
+template <class Real>
+HWY_INLINE void fetch_ahead(const SphereOf<Real>* bodies, const Candidates& list, std::size_t begin,
+                            std::size_t end) {
+  for (std::size_t p = begin; p < end; ++p) {
+    __builtin_prefetch(bodies + list.i[p]);
+    __builtin_prefetch(bodies + list.j[p]);
+  }
+}
+
 template <class Real>
 HWY_INLINE simd::SphereArg<Number<Real>> load_spheres(const SphereOf<Real>* spheres) {
   simd::SphereArg<Number<Real>> s;
@@ -826,8 +840,8 @@ HWY_FLATTEN void keep_hits(const SphereOf<Real>* bodies, const std::uint32_t* id
     load_block(bodies, ids, list, p, std::min(lanes, list.count - p), block);
     const auto s1 = load_spheres(block.s1);
     const auto s2 = load_spheres(block.s2);
-    const auto c = simd::sphere_sphere<Number<Real>>(s1, s2);
-    for (std::uint32_t bits = mask_bits(d, c.hit.m); bits != 0; bits &= bits - 1) {
+    const auto hit = simd::touches(simd::separation(s1, s2));
+    for (std::uint32_t bits = mask_bits(d, hit.m); bits != 0; bits &= bits - 1) {
       const std::size_t from = p + hwy::Num0BitsBelowLS1Bit_Nonzero32(bits);
       list.i[kept] = list.i[from];
       list.j[kept] = list.j[from];
@@ -880,6 +894,10 @@ HWY_FLATTEN std::size_t contacts(const SphereOf<Real>* bodies, const std::uint32
   ContactBlock<Real> block;
   BodyContactOf<Real>* const first = out;
   for (std::size_t p = begin; p < end; p += lanes) {
+    if (ids == nullptr) {
+      fetch_ahead(bodies, list, std::min(end, p + kFetchAhead),
+                  std::min(end, p + kFetchAhead + lanes));
+    }
     load_block(bodies, ids, list, p, std::min(lanes, end - p), pairs);
     const auto s1 = load_spheres(pairs.s1);
     const auto s2 = load_spheres(pairs.s2);
@@ -925,35 +943,11 @@ namespace {
 
 HWY_EXPORT(get_kernels);
 
-const KernelTable* kernels_of_target(std::int64_t target) noexcept {
-#if (HWY_TARGETS & (HWY_TARGETS - 1)) == 0
-  return target == HWY_TARGETS ? HWY_DISPATCH_TABLE(get_kernels)[0]() : nullptr;
-#else
-  hwy::ChosenTarget chosen;
-  chosen.Update(target);
-  return HWY_DISPATCH_TABLE(get_kernels)[chosen.GetIndex()]();
-#endif
-}
-
-/// The public name, as of cpu_instruction_sets().
-std::string_view name_of(std::int64_t target) noexcept {
-  if (target == HWY_EMU128 || target == HWY_SCALAR) {
-    return HWY_ARCH_X86 != 0 ? "SSE2" : "baseline";
-  }
-  if (target == HWY_AVX3) return "AVX-512";
-  return hwy::TargetName(target);
-}
-
 }  // namespace
 
 const KernelTable* find_kernels(std::string_view instruction_set) noexcept {
-  for (std::int64_t rest = hwy::SupportedTargets() & HWY_TARGETS; rest != 0; rest &= rest - 1) {
-    const std::int64_t target = rest & -rest;
-    if (instruction_set.empty() || instruction_set == name_of(target)) {
-      return kernels_of_target(target);
-    }
-  }
-  return nullptr;
+  const std::int64_t target = find_target(instruction_set);
+  return target == 0 ? nullptr : call_for_target(HWY_DISPATCH_TABLE(get_kernels), target);
 }
 
 }  // namespace harpoon::scene

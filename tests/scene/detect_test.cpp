@@ -17,11 +17,13 @@ namespace {
 constexpr std::uint64_t kSeed = 20240611;
 #if defined(__SANITIZE_ADDRESS__) || defined(__SANITIZE_THREAD__)
 constexpr int kScenesOfWorld = 8;  // unoptimised kernels are slow; the release run has them all
+constexpr int kManyBodies = 1200;
 constexpr std::ptrdiff_t kInstructionSets = 1;
 constexpr std::array kThreadCounts = {2U, 8U};
 constexpr std::array kLargeWorlds = {World::packed, World::clusters};
 #else
 constexpr int kScenesOfWorld = 130;  // x 8 worlds x 2 precisions > 2,000
+constexpr int kManyBodies = 9000;
 constexpr std::ptrdiff_t kInstructionSets = 100;
 constexpr std::array kThreadCounts = {1U, 2U, 3U, 8U};
 constexpr std::array kLargeWorlds = kWorlds;
@@ -99,7 +101,7 @@ TYPED_TEST(DetectTest, EqualsBruteForceInEveryWorld) {
 TYPED_TEST(DetectTest, OneHashForThreadsInstructionSetsAndViews) {
   using Real = TypeParam;
   for (const World world : kWorlds) {
-    const int bodies = world == World::point ? 700 : 9000;
+    const int bodies = world == World::point ? kManyBodies / 12 : kManyBodies;
     const auto spheres = WorldMaker<Real>(kSeed + 7).make(world, bodies);
     const BodiesOf<Real> records(view(spheres));
     Workspace first = workspace(1);
@@ -138,12 +140,12 @@ TYPED_TEST(DetectTest, OneHashForThreadsInstructionSetsAndViews) {
 
 TYPED_TEST(DetectTest, SortsByIdsOnRequest) {
   using Real = TypeParam;
-  const auto spheres = WorldMaker<Real>(kSeed).make(World::packed, 5000);
+  const auto spheres = WorldMaker<Real>(kSeed).make(World::packed, kManyBodies);
   for (const unsigned threads : {1U, 3U}) {
     Workspace means = workspace(threads);
     const auto space = run(means, BodiesOf<Real>(view(spheres)), 100000);
     const auto ids = run(means, BodiesOf<Real>(view(spheres)), 100000, ContactOrder::ids);
-    EXPECT_GT(space.size(), 1000U);
+    EXPECT_GT(space.size(), static_cast<std::size_t>(kManyBodies) / 4);
     EXPECT_TRUE(same_bits(sorted_by_ids(space), ids));
   }
 }
@@ -237,8 +239,8 @@ TYPED_TEST(DetectTest, AcceptsTheLimitItself) {
 TYPED_TEST(DetectTest, TooSmallAnOutputIsUntouchedAndTheNeedExact) {
   using Real = TypeParam;
   for (const World world : kLargeWorlds) {
-    const auto spheres =
-        WorldMaker<Real>(kSeed + 3).make(world, 6000 / (1 + (world == World::point) * 5));
+    const auto spheres = WorldMaker<Real>(kSeed + 3).make(
+        world, world == World::point ? kManyBodies / 12 : kManyBodies);
     const BodiesOf<Real> bodies(view(spheres));
     for (const unsigned threads : {1U, 2U}) {
       Workspace means = workspace(threads);
@@ -262,11 +264,11 @@ TYPED_TEST(DetectTest, TooSmallAnOutputIsUntouchedAndTheNeedExact) {
 
 TYPED_TEST(DetectTest, EverythingInOnePointNeedsLittleMemory) {
   using Real = TypeParam;
-  const std::vector<SphereOf<Real>> spheres(6000, SphereOf<Real>{1, 2, 3, Real(0.5)});
+  const std::vector<SphereOf<Real>> spheres(kManyBodies, SphereOf<Real>{1, 2, 3, Real(0.5)});
   Workspace means = workspace(1);
   const auto report = count_contacts(means, BodiesOf<Real>(view(spheres)));
   ASSERT_TRUE(report.ok());
-  EXPECT_EQ(report->contacts, 6000U * 5999U / 2);
+  EXPECT_EQ(report->contacts, std::uint64_t{kManyBodies} * (kManyBodies - 1) / 2);
   EXPECT_LT(means.bytes(), std::size_t{2} << 20);
 }
 

@@ -15,7 +15,7 @@ namespace {
 constexpr std::uint64_t kSeed = 20251122;
 #if defined(__SANITIZE_ADDRESS__) || defined(__SANITIZE_THREAD__)
 constexpr int kScenesOfWorld = 6;  // unoptimised kernels are slow; the release run has them all
-constexpr int kManyBoxes = 4500;   // enough for the call to be shared between threads
+constexpr int kManyBoxes = 1000;
 const std::vector<std::string> kSomeSets = {""};
 #else
 constexpr int kScenesOfWorld = 130;  // x 8 worlds x 2 precisions > 2,000
@@ -90,8 +90,8 @@ TYPED_TEST(OverlapTest, OneResultForThreadsInstructionSetsAndStrides) {
   using Real = TypeParam;
   std::array<int, kBoxKinds> seen = {};
   for (const World world : kWorlds) {
-    const auto spheres =
-        WorldMaker<Real>(kSeed + 7).make(world, world == World::point ? 700 : kManyBoxes);
+    const auto spheres = WorldMaker<Real>(kSeed + 7).make(
+        world, world == World::point ? kManyBoxes / 12 : kManyBoxes);
     const auto boxes = boxes_around(spheres, kSeed, 5, seen);
     const std::size_t room = overlapping(boxes).size() + 5;
     Workspace first = workspace(1);
@@ -172,7 +172,7 @@ TYPED_TEST(OverlapTest, PlanesAndGroundsDoNotSpoilTheGrid) {
   using Real = TypeParam;
   const Real infinity = std::numeric_limits<Real>::infinity();
   std::array<int, kBoxKinds> seen = {};
-  const auto spheres = WorldMaker<Real>(kSeed).make(World::packed, 6000);
+  const auto spheres = WorldMaker<Real>(kSeed).make(World::packed, kManyBoxes);
   auto boxes = boxes_around(spheres, kSeed, 0, seen);
   Workspace means = workspace(1);
   std::vector<IndexPair> out(200000);
@@ -185,7 +185,7 @@ TYPED_TEST(OverlapTest, PlanesAndGroundsDoNotSpoilTheGrid) {
   const auto report = overlap_pairs(means, view(boxes), std::span(out));
   ASSERT_TRUE(report.ok());
   EXPECT_TRUE(report->excluded.empty());
-  EXPECT_GT(report->contacts, alone->contacts + 6000);
+  EXPECT_GT(report->contacts, alone->contacts + kManyBoxes);
   EXPECT_LT(report->tests, alone->tests + 6 * boxes.size());
 }
 
@@ -211,7 +211,7 @@ TYPED_TEST(OverlapTest, TooSmallAnOutputIsUntouchedAndTheNeedExact) {
   std::array<int, kBoxKinds> seen = {};
   for (const World world : {World::packed, World::point, World::mixed}) {
     const auto spheres =
-        WorldMaker<Real>(kSeed).make(world, world == World::point ? 1000 : kManyBoxes);
+        WorldMaker<Real>(kSeed).make(world, world == World::point ? kManyBoxes / 8 : kManyBoxes);
     const auto boxes = boxes_around(spheres, kSeed, 3, seen);
     const std::size_t needed = overlapping(boxes).size();
     for (const unsigned threads : {1U, 2U}) {

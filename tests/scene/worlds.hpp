@@ -189,10 +189,11 @@ std::vector<Box<Real>> boxes_around(const std::vector<SphereOf<Real>>& spheres, 
         b[axis] = b[axis + 1];
         break;
       case BoxKind::touching: {
+        if (out.empty()) break;
         // A face of an earlier box becomes the opposite one of this box.
-        const auto& other = out[static_cast<std::size_t>(
-            out.empty() ? 0 : dice.integer(0, static_cast<int>(out.size()) - 1))];
-        if (!out.empty() && other[axis + 1] <= b[axis + 1]) b[axis] = other[axis + 1];
+        const auto& other =
+            out[static_cast<std::size_t>(dice.integer(0, static_cast<int>(out.size()) - 1))];
+        if (other[axis + 1] <= b[axis + 1]) b[axis] = other[axis + 1];
         break;
       }
       case BoxKind::infinite:

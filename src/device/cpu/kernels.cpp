@@ -13,6 +13,7 @@
 #include "hwy/foreach_target.h"
 #include "hwy/highway.h"
 
+#include "base/instruction_set.hpp"
 #include "collide/simd.inl"
 #include "device/cpu/records.inl"
 
@@ -380,55 +381,24 @@ namespace {
 
 HWY_EXPORT(get_kernels);
 
-/// Targets that this build holds and this machine runs, as Highway's bits: the lowest is widest.
-std::int64_t usable_targets() noexcept {
-  return hwy::SupportedTargets() & HWY_TARGETS;
-}
-
-const Kernels* kernels_of_target(std::int64_t target) noexcept {
-#if (HWY_TARGETS & (HWY_TARGETS - 1)) == 0
-  return target == HWY_TARGETS ? HWY_DISPATCH_TABLE(get_kernels)[0]() : nullptr;
-#else
-  hwy::ChosenTarget chosen;
-  chosen.Update(target);
-  return HWY_DISPATCH_TABLE(get_kernels)[chosen.GetIndex()]();
-#endif
-}
-
-/// The field's name of an instruction set where Highway's differs: its fallback target is compiled
-/// for the architecture's baseline (on x86-64 that is SSE2), its AVX3 is AVX-512.
-std::string_view name_of(std::int64_t target) noexcept {
-  if (target == HWY_EMU128 || target == HWY_SCALAR) {
-    return HWY_ARCH_X86 != 0 ? "SSE2" : "baseline";
-  }
-  if (target == HWY_AVX3) return "AVX-512";
-  return hwy::TargetName(target);
-}
-
 }  // namespace
 
 std::vector<std::string> instruction_set_names() {
   std::vector<std::string> names;
   for (std::int64_t rest = usable_targets(); rest != 0; rest &= rest - 1) {
-    names.emplace_back(name_of(rest & -rest));
+    names.emplace_back(name_of_target(rest & -rest));
   }
   std::reverse(names.begin(), names.end());
   return names;
 }
 
 std::string_view widest_instruction_set() noexcept {
-  const std::int64_t targets = usable_targets();
-  return name_of(targets & -targets);
+  return name_of_target(find_target({}));
 }
 
 const Kernels* find_kernels(std::string_view instruction_set) noexcept {
-  for (std::int64_t rest = usable_targets(); rest != 0; rest &= rest - 1) {
-    const std::int64_t target = rest & -rest;
-    if (instruction_set.empty() || instruction_set == name_of(target)) {
-      return kernels_of_target(target);
-    }
-  }
-  return nullptr;
+  const std::int64_t target = find_target(instruction_set);
+  return target == 0 ? nullptr : call_for_target(HWY_DISPATCH_TABLE(get_kernels), target);
 }
 
 }  // namespace harpoon::cpu

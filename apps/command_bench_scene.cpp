@@ -123,11 +123,10 @@ void measure(const Context& context, const SceneOptions& options) {
   if (!outcome.counts_agree) disagree();
 }
 
-void measure_scaling(const Context& context, const SceneOptions& options, bool all_kinds) {
+void measure_scaling(const Context& context, const SceneOptions& options, bool three_kinds) {
   bench::ScalingPlan plan;
-  plan.kinds = {bench::WorldKind::gas, bench::WorldKind::packed, bench::WorldKind::polydisperse,
-                bench::WorldKind::bed, bench::WorldKind::clusters};
-  if (!all_kinds) plan.kinds = {*bench::parse_world_kind(options.kind)};
+  plan.kinds = {bench::WorldKind::gas, bench::WorldKind::packed, bench::WorldKind::polydisperse};
+  if (!three_kinds) plan.kinds = {*bench::parse_world_kind(options.kind)};
   plan.most_bodies = options.bodies;
   plan.frames = options.frames;
   plan.threads = options.threads;
@@ -191,7 +190,7 @@ void add_bench_scene(CLI::App& bench, Context& context) {
       ->type_name("FILE");
   auto* const scaling =
       scene->add_flag("--scaling", options->scaling,
-                      "Sizes from 1,000 to --bodies, all kinds or the one named, without peers");
+                      "Sizes from 1,000 to --bodies, three kinds or the one named, without peers");
   scene
       ->add_option("--write-docs", options->write_docs,
                    "With --scaling: write the tables and the plot of docs/ to this folder")
@@ -205,9 +204,10 @@ void add_bench_scene(CLI::App& bench, Context& context) {
       "  harpoon bench scene --bodies 1000000 --threads 2 --json scene.json\n"
       "  harpoon bench scene --scaling --bodies 4000000 --write-docs docs");
   scene->callback([&context, options, scene] {
-    const bool all_kinds = scene->count("--kind") == 0;
-    context.run = [&context, options, all_kinds] {
-      options->scaling ? measure_scaling(context, *options, all_kinds) : measure(context, *options);
+    const bool three_kinds = scene->count("--kind") == 0;
+    context.run = [&context, options, three_kinds] {
+      options->scaling ? measure_scaling(context, *options, three_kinds)
+                       : measure(context, *options);
     };
   });
 }

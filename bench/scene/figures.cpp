@@ -119,9 +119,11 @@ std::string scaling_markdown(const std::vector<ScalingPoint>& points, const Mach
   if (points.empty()) return text;
   const ScenePlan& first = points.front().plan;
   text += fmt::format(
-      "Written by `{}` at commit {}. {}, {} cores, {}; {} thread{}, {}. Medians over frames in "
-      "which "
-      "every body moves by 2 % of its radius. The reasons are in [scene.md](scene.md).\n\n",
+      "Written by\n\n    {}\n\nat commit {}: {}, {} cores, {}; {} thread{}, {}. Medians over "
+      "frames "
+      "in\nwhich every body moves by 2 % of its radius; \"set again\" is a frame of a `Scene` "
+      "whose "
+      "bodies are\nset where they are. The reasons are in [scene.md](scene.md).\n\n",
       command, build_commit(), machine.cpu, machine.cores, machine.instruction_set, first.threads,
       first.threads == 1 ? "" : "s", first.f64 ? "double" : "float");
   text += fmt::format("![Nanoseconds a body over the number of bodies]({})\n", plot);

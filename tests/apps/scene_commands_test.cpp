@@ -120,7 +120,7 @@ TEST(BenchSceneCommand, ScalingWritesEverySizeAndTheDocs) {
       }
     }
   }
-  EXPECT_EQ(sizes.size(), 5U);
+  EXPECT_EQ(sizes.size(), 3U);
   for (const auto& [kind, of_kind] : sizes) {
     EXPECT_EQ(of_kind, (std::vector<int>{1000, 2500})) << kind;
   }

@@ -12,6 +12,7 @@ void add_bench(CLI::App& root, Context& context) {
   bench->footer("Example:\n  harpoon bench pairs --help");
   add_bench_pairs(*bench, context);
   add_bench_scene(*bench, context);
+  add_bench_ode(*bench, context);
 }
 
 }  // namespace harpoon::app

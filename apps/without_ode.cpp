@@ -29,6 +29,9 @@ void add_demo(CLI::App& root, Context& context) {
 void add_bench_pairs(CLI::App& bench, Context& context) {
   add_refusal(bench, context, "pairs");
 }
+void add_bench_ode(CLI::App& bench, Context& context) {
+  add_refusal(bench, context, "ode");
+}
 void add_diamond(CLI::App& root, Context& context) {
   add_refusal(root, context, "diamond");
 }

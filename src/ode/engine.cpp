@@ -112,6 +112,7 @@ class EngineOf final : public Engine {
   void refresh_mirror(Record& record);
   [[nodiscard]] bool refresh_pairs(Record& record);
   Result<typename PairSearch<Real>::Found> find_pairs(Record& record);
+  [[nodiscard]] bool takes_over_sap(Record& record) const;
   void name_strays(Record& record);
   void intern_recorded(Record& record) const;
   [[nodiscard]] bool answer_in_order(Record& record, void* data, NearCallback* callback);
@@ -174,6 +175,8 @@ int EngineOf<Real>::min_geoms(int kind) const {
       return options_.min_geoms_simple;
     case geom_class::kHashSpace:
       return options_.min_geoms_hash;
+    case geom_class::kSapSpace:
+      return options_.min_geoms_sap;
     default:
       return options_.min_geoms_quadtree;
   }
@@ -192,7 +195,8 @@ template <class Real>
 void EngineOf<Real>::note_changes(Record& record) const {
   const int count = ode_.space_get_num_geoms(record.space);
   const bool reported = record.changed.exchange(false, std::memory_order_relaxed);
-  if (!reported && options_.changes_are_reported && count == record.count) return;
+  record.was_unchanged = !reported && options_.changes_are_reported && count == record.count;
+  if (record.was_unchanged) return;
   record.count = count;
   record.mirror_valid = record.pairs_valid = record.recorded_valid = false;
 }
@@ -229,6 +233,15 @@ void EngineOf<Real>::name_strays(Record& record) {
   }
 }
 
+/// While a SAP space is small libode sorts it, and only libode knows in which order. That order is
+/// forgotten when the number of sorted geoms changes: with more than there ever were, it has.
+template <class Real>
+bool EngineOf<Real>::takes_over_sap(Record& record) const {
+  record.sap_is_ours = record.sap_is_ours || record.sap->sorted_geoms(record.mirror) >=
+                                                 static_cast<std::size_t>(options_.min_geoms_sap);
+  return record.sap_is_ours;
+}
+
 template <class Real>
 Result<typename PairSearch<Real>::Found> EngineOf<Real>::find_pairs(Record& record) {
   if (record.kind == geom_class::kSimpleSpace) {
@@ -249,6 +262,7 @@ bool EngineOf<Real>::refresh_pairs(Record& record) {
   if (record.pairs_valid) return true;
   refresh_mirror(record);
   if (asks_unknown_tests(record.mirror)) return false;
+  if (record.kind == geom_class::kSapSpace && !takes_over_sap(record)) return false;
   record.contacts.reset();
   if (!record.search) {
     Result<PairSearch<Real>> search = PairSearch<Real>::make();
@@ -354,7 +368,8 @@ void EngineOf<Real>::intern_recorded(Record& record) const {
   record.pairs_valid = true;
 }
 
-/// Quadtree spaces and SAP spaces whose creation nobody saw.
+/// Quadtree spaces and SAP spaces whose creation nobody saw: recorded when nothing has changed
+/// since the call before, replayed when nothing has since then.
 template <class Real>
 void EngineOf<Real>::record_or_replay(Record& record, void* data, NearCallback* callback) {
   const Entry entry(record);
@@ -372,6 +387,10 @@ void EngineOf<Real>::record_or_replay(Record& record, void* data, NearCallback* 
     replay_record(record,
                   record.kind == geom_class::kQuadtreeSpace ? LiveCheck::rows : LiveCheck::none,
                   data, callback);
+    return;
+  }
+  if (!record.was_unchanged) {
+    leave_to_stock(record.space, data, callback);
     return;
   }
   Statistics::add(statistics_.recorded, 1);
@@ -392,8 +411,8 @@ void EngineOf<Real>::space_collide(dxSpace* space, void* data, NearCallback* cal
   const int kind = kind_of(as_geom(space));
   Record* record = kind == geom_class::kSapSpace && !table_.empty() ? table_.find(space) : nullptr;
   const bool follows_sap = record != nullptr && record->sap.has_value();
-  if (!is_space_class(kind) ||
-      (!follows_sap && ode_.space_get_num_geoms(space) < min_geoms(kind))) {
+  if (!is_space_class(kind) || ((!follows_sap || !record->sap_is_ours) &&
+                                ode_.space_get_num_geoms(space) < min_geoms(kind))) {
     leave_to_stock(space, data, callback);
     return;
   }
@@ -505,21 +524,23 @@ template <class Real>
 int EngineOf<Real>::answer_contact(Frame<Real>& frame, int flags, ContactGeomOf<Real>& contact,
                                    int skip) {
   Record& record = *frame.record;
-  if (!record.mirror.are_spheres(record.pairs[frame.number]) ||
-      record.version.load(std::memory_order_relaxed) != frame.version || !frame.default_rules ||
-      (flags & kContactCountMask) == 0 || skip < static_cast<int>(sizeof contact) ||
-      !spheres_are_ours()) {
+  if (record.version.load(std::memory_order_relaxed) != frame.version || !frame.default_rules ||
+      (flags & kContactCountMask) == 0 || skip < static_cast<int>(sizeof contact)) {
     return -1;
   }
-  using Contacts = SphereContacts<Real>;
-  const std::int32_t place =
-      record.contacts.find(source_, record.mirror, record.pairs, frame.number);
-  if (place == Contacts::kNone) return -1;
+  SphereContacts<Real>& contacts = record.contacts;
+  if (!contacts.has(frame.number)) {
+    if (!record.mirror.are_spheres(record.pairs[frame.number]) || !spheres_are_ours()) return -1;
+    contacts.load(source_, record.mirror, record.pairs, frame.number);
+  }
+  using Answer = typename SphereContacts<Real>::Answer;
+  const Answer answer = contacts.find(record.mirror, record.pairs, frame.number);
+  if (answer == Answer::none) return -1;
   contact.g1 = frame.o1;
   contact.g2 = frame.o2;
   contact.side1 = contact.side2 = -1;
-  if (place == Contacts::kApart) return 0;
-  const BodyContactOf<Real>& found = record.contacts.contact(place);
+  if (answer == Answer::apart) return 0;
+  const BodyContactOf<Real>& found = contacts.contact();
   for (int axis = 0; axis < 3; ++axis) {
     contact.pos[axis] = found.pos[axis];
     contact.normal[axis] = found.normal[axis];
@@ -638,6 +659,7 @@ template <class Real>
 void EngineOf<Real>::collider_overridden(int class1, int class2) {
   if (class1 == geom_class::kSphere && class2 == geom_class::kSphere) {
     spheres_.store(Agreement::no, std::memory_order_relaxed);
+    table_.for_each([](Record& record) { record.mark_moved(); });
   }
 }
 

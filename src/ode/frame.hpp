@@ -13,10 +13,19 @@
 
 namespace harpoon::ode {
 
+/// Frames on this thread's stack: without any dCollide is libode's at once.
+inline constinit thread_local int open_frames = 0;
+
 template <class Real>
 struct Frame {
-  explicit Frame(dxSpace* the_space) : space(the_space), outer(current()) { current() = this; }
-  ~Frame() { current() = outer; }
+  explicit Frame(dxSpace* the_space) : space(the_space), outer(current()) {
+    current() = this;
+    ++open_frames;
+  }
+  ~Frame() {
+    current() = outer;
+    --open_frames;
+  }
   Frame(const Frame&) = delete;
   Frame& operator=(const Frame&) = delete;
 

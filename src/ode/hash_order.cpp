@@ -1,6 +1,7 @@
 #include "ode/hash_order.hpp"
 
 #include <algorithm>
+#include <bit>
 #include <cmath>
 #include <limits>
 #include <utility>
@@ -32,29 +33,46 @@ bool wraps(std::int32_t level, std::int32_t x, std::int32_t y, std::int32_t low_
   return static_cast<std::int64_t>(base) + low_z < 0;
 }
 
+/// Rounds down a number that an int holds.
+template <class Real>
+std::int32_t floor_of(Real value) {
+  const auto whole = static_cast<std::int32_t>(value);
+  return whole - (value < static_cast<Real>(whole) ? 1 : 0);
+}
+
+/// The exponent that std::frexp gives.
+int exponent_of(double value) {
+  constexpr int kBias = 1022, kSpecial = 0x7FF;
+  const int biased = static_cast<int>(std::bit_cast<std::uint64_t>(value) >> 52) & kSpecial;
+  int exponent = biased - kBias;
+  if (biased == 0 || biased == kSpecial) (void)std::frexp(value, &exponent);
+  return exponent;
+}
+
 }  // namespace
 
 template <class Real>
 bool HashOrder<Real>::discretise(const BoundsBox<Real>& box, int min_level, int max_level,
-                                 Cells& cells) const {
+                                 Cells& cells) {
   cells = {kBig, {}, {}};
   if (is_infinite(box)) return true;
   Real extent = box.v[1] - box.v[0];
   extent = std::max(extent, box.v[3] - box.v[2]);
   extent = std::max(extent, box.v[5] - box.v[4]);
-  int level = 0;
-  (void)std::frexp(extent, &level);
-  level = std::max(level, min_level);
+  const int level = std::max(exponent_of(static_cast<double>(extent)), min_level);
   if (level > max_level) return true;
-  const Real scale = Real(1) / std::ldexp(Real(1), level);
+  if (level != scale_level_) {
+    scale_ = Real(1) / std::ldexp(Real(1), level);
+    scale_level_ = level;
+  }
   for (int axis = 0; axis < 3; ++axis) {
-    const Real low = box.v[2 * axis] * scale, high = box.v[2 * axis + 1] * scale;
+    const Real low = box.v[2 * axis] * scale_, high = box.v[2 * axis + 1] * scale_;
     if (!(low >= kMinCell<Real> && low < kMaxCell<Real> && high >= kMinCell<Real> &&
           high < kMaxCell<Real>)) {
       return false;
     }
-    cells.low[axis] = static_cast<std::int32_t>(std::floor(low));
-    cells.high[axis] = static_cast<std::int32_t>(std::floor(high));
+    cells.low[axis] = floor_of(low);
+    cells.high[axis] = floor_of(high);
   }
   cells.level = level;
   return true;
@@ -97,6 +115,11 @@ typename HashOrder<Real>::Found HashOrder<Real>::key_of(std::uint32_t first, std
            static_cast<std::uint64_t>(y - base[1]) << 36 |
            static_cast<std::uint64_t>(low[2] - base[2]) << 34 | (0xFFFFFFFFu - second);
   };
+  // Mostly no column wraps: both begin at or above 0, or x, y or the level makes the base huge.
+  if ((~(base[2] | b.low[2]) | low[0] | low[1] | b.level) < 0) {
+    key = keyed(low[0], low[1]);
+    return Found::yes;
+  }
   for (std::int32_t x = low[0]; x <= high[0]; ++x) {
     for (std::int32_t y = low[1]; y <= high[1]; ++y) {
       if (wraps(b.level, x, y, base[2]) == wraps(b.level, x, y, b.low[2])) {

@@ -47,7 +47,7 @@ class HashOrder {
   };
   static constexpr std::int32_t kBig = INT32_MAX;
 
-  bool discretise(const BoundsBox<Real>& box, int min_level, int max_level, Cells& cells) const;
+  bool discretise(const BoundsBox<Real>& box, int min_level, int max_level, Cells& cells);
   /// The key of a pair of which neither is big, `first` being the one whose row it is in.
   enum class Found : std::uint8_t { yes, missed, never };
   Found key_of(std::uint32_t first, std::uint32_t second, std::uint64_t& key) const;
@@ -56,6 +56,8 @@ class HashOrder {
   std::vector<std::uint8_t> stray_, skip_;
   std::vector<KeyedPair> big_;
   bool has_stray_ = false, has_nan_ = false;
+  int scale_level_ = INT32_MIN;  ///< whose cells' reciprocal size is in hand
+  Real scale_ = 0;
 };
 
 }  // namespace harpoon::ode

@@ -62,8 +62,8 @@ Result<Options> read_options(const char* (*variable)(const char* name)) {
     if (error != std::errc() || end != text.data() + text.size() || least < 0) {
       return bad_value("HARPOON_MIN_GEOMS", text, "a number of geoms, 0 or more");
     }
-    options.min_geoms_simple = options.min_geoms_hash = options.min_geoms_quadtree =
-        options.min_geoms_scan = least;
+    options.min_geoms_simple = options.min_geoms_hash = options.min_geoms_sap =
+        options.min_geoms_quadtree = options.min_geoms_scan = least;
   }
   return options;
 }

@@ -27,8 +27,9 @@ struct Options {
   /// Whether every change of a geom is reported to the engine; otherwise each call reads all geoms.
   bool changes_are_reported = true;
   /// Spaces with fewer geoms are left to libode. By measurement (`harpoon bench ode`).
-  int min_geoms_simple = 48;
-  int min_geoms_hash = 12;
+  int min_geoms_simple = 160;
+  int min_geoms_hash = 8;
+  int min_geoms_sap = 32;
   int min_geoms_quadtree = 16;
   int min_geoms_scan = 64;  ///< dSpaceCollide2 on this space
 };

@@ -4,6 +4,7 @@
 
 #include "harpoon/export.hpp"
 #include "ode/drop_in.hpp"
+#include "ode/frame.hpp"
 #include "ode/interposed.hpp"
 
 namespace {
@@ -49,9 +50,9 @@ HARPOON_API void dSpaceCollide2(dxGeom* o1, dxGeom* o2, void* data, NearCallback
 }
 
 HARPOON_API int dCollide(dxGeom* o1, dxGeom* o2, int flags, void* contact, int skip) {
-  Engine* const engine = drop_in_if_made();
-  if (engine == nullptr) return libode().collide(o1, o2, flags, contact, skip);
-  return engine->collide(o1, o2, flags, contact, skip);
+  static int (*const stock)(dxGeom*, dxGeom*, int, void*, int) = libode().collide;
+  if (harpoon::ode::open_frames == 0) return stock(o1, o2, flags, contact, skip);
+  return drop_in_if_made()->collide(o1, o2, flags, contact, skip);
 }
 
 HARPOON_API void dGeomMoved(dxGeom* geom) {

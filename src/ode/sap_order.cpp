@@ -33,6 +33,15 @@ bool SapOrder<Real>::usable() const {
 }
 
 template <class Real>
+std::size_t SapOrder<Real>::sorted_geoms(const Mirror<Real>& mirror) const {
+  const int high = 2 * axes_[0] + 1;
+  return static_cast<std::size_t>(
+      std::count_if(mirror.bounds.begin(), mirror.bounds.end(), [&](const BoundsBox<Real>& box) {
+        return box.v[high] != std::numeric_limits<Real>::infinity();
+      }));
+}
+
+template <class Real>
 void SapOrder<Real>::split(const Mirror<Real>& mirror) {
   const int low = 2 * axes_[0];
   bounded_.clear();
@@ -104,27 +113,35 @@ void SapOrder<Real>::sort() {
 
 /// libode's own loop, step by step, so that it also gives what NaNs and inverted boxes give there.
 template <class Real>
-void SapOrder<Real>::sweep(const Mirror<Real>& mirror, std::vector<IndexPair>& out) const {
+void SapOrder<Real>::sweep(const Mirror<Real>& mirror, std::vector<IndexPair>& out) {
   const std::size_t count = ranks_.size();
   const int low1 = 2 * axes_[1], low2 = 2 * axes_[2];
-  std::size_t running = 0;
+  sorted_.resize(count);
   for (std::size_t k = 0; k < count; ++k) {
     const std::uint32_t p = ranks_[k];
-    while (lows_[ranks_[running++]] < lows_[p]) {
-      if (running == count) return;
+    const Real* const box = mirror.bounds[bounded_[p]].v;
+    sorted_[k] = {box[low1], box[low1 + 1], box[low2],  box[low2 + 1],
+                  lows_[p],  highs_[p],     bounded_[p]};
+  }
+  std::size_t running = 0, found = out.size();
+  for (std::size_t k = 0; k < count; ++k) {
+    const Sorted a = sorted_[k];
+    while (sorted_[running++].low0 < a.low0) {
+      if (running == count) break;
     }
-    if (running == count) return;
-    const Real* a = mirror.bounds[bounded_[p]].v;
+    if (running == count) break;
+    out.resize(std::max(out.size(), found + (count - running)));
     for (std::size_t partner = running; partner < count; ++partner) {
-      const std::uint32_t q = ranks_[partner];
-      if (!(lows_[q] <= highs_[p])) break;
-      const Real* b = mirror.bounds[bounded_[q]].v;
-      if (a[low1 + 1] >= b[low1] && b[low1 + 1] >= a[low1] && a[low2 + 1] >= b[low2] &&
-          b[low2 + 1] >= a[low2] && mirror.counts(bounded_[p], bounded_[q])) {
-        out.push_back({bounded_[p], bounded_[q]});
-      }
+      const Sorted& b = sorted_[partner];
+      if (!(b.low0 <= a.high0)) break;
+      const int apart =
+          static_cast<int>(!(a.high1 >= b.low1)) | static_cast<int>(!(b.high1 >= a.low1)) |
+          static_cast<int>(!(a.high2 >= b.low2)) | static_cast<int>(!(b.high2 >= a.low2));
+      out[found] = {a.geom, b.geom};
+      found += apart == 0 && mirror.counts(a.geom, b.geom) ? 1 : 0;
     }
   }
+  out.resize(found);
 }
 
 template <class Real>

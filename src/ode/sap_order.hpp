@@ -29,6 +29,9 @@ class SapOrder {
   /// Whether the axes are three different ones: others are left to libode.
   [[nodiscard]] bool usable() const;
 
+  /// How many of the mirror's geoms are sorted: the number that libode's history hangs on.
+  [[nodiscard]] std::size_t sorted_geoms(const Mirror<Real>& mirror) const;
+
   /// Appends all pairs of the mirror to `out` in the space's order, and takes over the ranks: to be
   /// called once for each call that the space would have seen. Errors: as `CandidateFinder::find`.
   [[nodiscard]] std::optional<Error> append(const Mirror<Real>& mirror,
@@ -42,13 +45,21 @@ class SapOrder {
   void sort();
   [[nodiscard]] bool is_sorted() const;
   void radix_sort();
-  void sweep(const Mirror<Real>& mirror, std::vector<IndexPair>& out) const;
+  void sweep(const Mirror<Real>& mirror, std::vector<IndexPair>& out);
   [[nodiscard]] std::optional<Error> search(const Mirror<Real>& mirror,
                                             CandidateFinder<Real>& finder, RowOrder& rows,
                                             std::vector<IndexPair>& out);
   void append_unbounded(const Mirror<Real>& mirror, std::vector<IndexPair>& out) const;
 
+  /// What the sweep reads of a geom.
+  struct Sorted {
+    Real low1, high1, low2, high2;
+    float low0, high0;
+    std::uint32_t geom;
+  };
+
   int axes_[3];
+  std::vector<Sorted> sorted_;
   std::vector<std::uint32_t> bounded_, unbounded_;  ///< geoms of the mirror
   std::vector<float> lows_, highs_;                 ///< of `bounded_`
   std::vector<std::uint32_t> ranks_;                ///< positions in `bounded_`, sorted

@@ -39,8 +39,9 @@ struct SpaceRecord {
 
   bool mirror_valid = false;
   bool pairs_valid = false;
-  int count = -1;           ///< of all its geoms when it was last looked at
-  std::uint64_t calls = 0;  ///< dSpaceCollide calls so far
+  int count = -1;              ///< of all its geoms when it was last looked at
+  bool was_unchanged = false;  ///< nothing had changed between the last two looks
+  std::uint64_t calls = 0;     ///< dSpaceCollide calls so far
   Mirror<Real> mirror;
   std::vector<IndexPair> pairs;  ///< of the mirror, in the order of callbacks
   SphereContacts<Real> contacts;
@@ -49,6 +50,7 @@ struct SpaceRecord {
   std::vector<const dxGeom*> named;        ///< stray geoms that the log has named
 
   std::optional<SapOrder<Real>> sap;  ///< only for spaces whose creation was seen
+  bool sap_is_ours = false;           ///< libode is not asked any more, its history is old
   std::vector<GeomPair> recorded;     ///< libode's own sequence
   bool recorded_valid = false;
 

@@ -16,7 +16,7 @@ constexpr std::size_t kLargestBlock = 512;
 
 template <class Real>
 void SphereContacts<Real>::reset() {
-  begin_ = end_ = 0;
+  begin_ = end_ = cursor_ = next_ = 0;
   asked_ = 0;
   single_spheres_valid_ = false;
 }
@@ -83,32 +83,22 @@ std::span<const IndexPair> SphereContacts<Real>::pick(const Mirror<Real>& mirror
 
 template <class Real>
 void SphereContacts<Real>::load(const ContactSource& source, const Mirror<Real>& mirror,
-                                std::span<const IndexPair> pairs, std::size_t begin) {
+                                std::span<const IndexPair> pairs, std::size_t k) {
   size_ = next_size(source, pairs.size());
-  begin_ = source.whole_frames ? 0 : begin;
+  begin_ = source.whole_frames ? 0 : k;
   end_ = std::min(begin_ + size_, pairs.size());
+  cursor_ = begin_;
+  next_ = 0;
   asked_ = 0;
 
-  const std::span<const IndexPair> block = pairs.subspan(begin_, end_ - begin_);
-  contact_of_.assign(block.size(), kNone);
-  const std::span<const IndexPair> sphere_pairs = pick(mirror, block);
+  const std::span<const IndexPair> sphere_pairs =
+      pick(mirror, pairs.subspan(begin_, end_ - begin_));
   const std::span<const SphereOf<Real>> spheres = mirror.spheres;
   const bool widen = source.single_precision && !std::is_same_v<Real, float>;
-  if (!(widen ? run_single(*source.device, spheres, sphere_pairs)
-              : run(*source.device, spheres, sphere_pairs, contacts_))) {
-    return;
-  }
-  // Contacts come in pair order: one walk over both. A mark that fits no pair ends it.
+  failed_ = !(widen ? run_single(*source.device, spheres, sphere_pairs)
+                    : run(*source.device, spheres, sphere_pairs, contacts_));
+  // A mark behind the last, which is that of no pair.
   contacts_[hits_].g1 = contacts_[hits_].g2 = ~0u;
-  const BodyContactOf<Real>* const contacts = contacts_.data();
-  std::int32_t next = 0;
-  for (std::size_t k = 0; k < block.size(); ++k) {
-    if (!mirror.only_spheres && !mirror.are_spheres(block[k])) continue;
-    const auto same = [](std::uint32_t a, std::uint32_t b) { return static_cast<int>(a == b); };
-    const int hit = same(contacts[next].g1, block[k].g1) & same(contacts[next].g2, block[k].g2);
-    contact_of_[k] = kApart + hit * (next - kApart);
-    next += hit;
-  }
 }
 
 namespace {

@@ -28,25 +28,34 @@ class SphereContacts {
   /// To be called when the mirror or the pairs have changed.
   void reset();
 
-  /// What `find` gives where there is no contact.
-  static constexpr std::int32_t kNone = -1;   ///< not a pair of spheres, or the device failed
-  static constexpr std::int32_t kApart = -2;  ///< spheres that do not touch
+  enum class Answer : std::uint8_t {
+    none,      ///< not a pair of spheres, or the device failed
+    apart,     ///< spheres that do not touch
+    touching,  ///< `contact` is that of the pair
+  };
 
-  /// The place of the contact of pair number `k` of `pairs` in `contact`, or one of the above.
-  std::int32_t find(const ContactSource& source, const Mirror<Real>& mirror,
-                    std::span<const IndexPair> pairs, std::size_t k) {
-    if (k < begin_ || k >= end_) load(source, mirror, pairs, k);
+  /// Whether the block in hand answers for pair number `k`.
+  [[nodiscard]] bool has(std::size_t k) const { return k >= cursor_ && k < end_; }
+
+  /// Computes the block that begins with pair number `k`.
+  void load(const ContactSource& source, const Mirror<Real>& mirror,
+            std::span<const IndexPair> pairs, std::size_t k);
+
+  /// The contact of pair number `k`, which the block `has`. Pairs are asked for in ascending order,
+  /// some of them more than once and others never.
+  Answer find(const Mirror<Real>& mirror, std::span<const IndexPair> pairs, std::size_t k) {
     ++asked_;
-    return contact_of_[k - begin_];
+    while (cursor_ < k) next_ += is_next(pairs[cursor_++]) ? 1 : 0;
+    if (is_next(pairs[k])) return Answer::touching;
+    const bool known = !failed_ && (mirror.only_spheres || mirror.are_spheres(pairs[k]));
+    return known ? Answer::apart : Answer::none;
   }
-  /// Valid until the next call of `find`.
-  [[nodiscard]] const BodyContactOf<Real>& contact(std::int32_t place) const {
-    return contacts_[static_cast<std::size_t>(place)];
-  }
+  [[nodiscard]] const BodyContactOf<Real>& contact() const { return contacts_[next_]; }
 
  private:
-  void load(const ContactSource& source, const Mirror<Real>& mirror,
-            std::span<const IndexPair> pairs, std::size_t begin);
+  [[nodiscard]] bool is_next(IndexPair pair) const {
+    return contacts_[next_].g1 == pair.g1 && contacts_[next_].g2 == pair.g2;
+  }
   [[nodiscard]] std::size_t next_size(const ContactSource& source, std::size_t pairs) const;
   std::span<const IndexPair> pick(const Mirror<Real>& mirror, std::span<const IndexPair> block);
   template <class Number>
@@ -56,13 +65,15 @@ class SphereContacts {
   [[nodiscard]] bool run_single(Device& device, std::span<const SphereOf<Real>> spheres,
                                 std::span<const IndexPair> pairs);
 
-  std::size_t begin_ = 0, end_ = 0;       ///< the block
-  std::size_t asked_ = 0;                 ///< questions about it
-  std::size_t size_ = 0;                  ///< its size, 0: not known yet
-  std::vector<std::int32_t> contact_of_;  ///< by pair of the block
+  std::size_t begin_ = 0, end_ = 0;  ///< the block
+  std::size_t cursor_ = 0;           ///< the pair last asked for
+  std::size_t next_ = 0;             ///< in `contacts_`: the first of a pair from the cursor on
+  std::size_t asked_ = 0;            ///< questions about the block
+  std::size_t size_ = 0;             ///< its size, 0: not known yet
   std::vector<IndexPair> sphere_pairs_;
   std::vector<BodyContactOf<Real>> contacts_;  ///< `hits_` of them and a mark
   std::uint64_t hits_ = 0;
+  bool failed_ = false;
   std::vector<BodyContactOf<float>> single_contacts_;
   std::vector<SphereOf<float>> single_spheres_;
   bool single_spheres_valid_ = false;

@@ -23,7 +23,7 @@ class Ode : public ::testing::Environment {
  public:
   void SetUp() override {
     // Small spaces too, which otherwise are libode's.
-    ::setenv("HARPOON_MIN_GEOMS", "2", 1);
+    ::setenv("HARPOON_MIN_GEOMS", "12", 1);
     dInitODE2(0);
     dAllocateODEDataForThread(static_cast<unsigned>(dAllocateMaskAll));
   }

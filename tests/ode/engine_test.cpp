@@ -49,7 +49,7 @@ struct Fixture : ::testing::Test {
     options.policy = policy;
     options.verify = verify;
     options.changes_are_reported = false;
-    options.min_geoms_simple = options.min_geoms_hash = 2;
+    options.min_geoms_simple = options.min_geoms_hash = options.min_geoms_sap = 2;
     Result<std::unique_ptr<Device>> cpu = make_cpu_device({.threads = 1});
     EXPECT_TRUE(cpu.ok());
     auto made = make_engine<double>(

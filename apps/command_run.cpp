@@ -1,0 +1,61 @@
+// `harpoon run -- COMMAND`: an ODE program with Harpoon's collision detection.
+
+#include <CLI/CLI.hpp>
+#include <memory>
+
+#include "apps/command.hpp"
+#include "apps/drop_in.hpp"
+#include "apps/exit_code.hpp"
+#include "apps/options.hpp"
+
+namespace harpoon::app {
+namespace {
+
+struct RunOptions {
+  std::string policy = "compat";
+  std::string precision = "exact";
+  std::string device = "cpu";
+  bool verify = false;
+  bool statistics = false;
+  std::vector<std::string> command;
+};
+
+void run(const RunOptions& options) {
+  if (options.command.empty()) {
+    throw CommandError(ExitCode::usage, "No command to run. Give one after --.");
+  }
+  run_with_drop_in(options.command, {{"HARPOON_ODE", options.policy},
+                                     {"HARPOON_PRECISION", options.precision},
+                                     {"HARPOON_DEVICE", options.device},
+                                     {"HARPOON_VERIFY", options.verify ? "1" : "0"},
+                                     {"HARPOON_STATS", options.statistics ? "1" : "0"}});
+}
+
+}  // namespace
+
+void add_run(CLI::App& root, Context& context) {
+  CLI::App* command =
+      root.add_subcommand("run", "Run an ODE program with Harpoon's collision detection");
+  auto options = std::make_shared<RunOptions>();
+  add_choice(*command, "--policy", options->policy, {"compat", "fixed", "strict"},
+             "Where stock ODE fails")
+      ->capture_default_str();
+  add_choice(*command, "--precision", options->precision, {"exact", "f32"},
+             "Contacts of spheres with stock's bits, or in binary32")
+      ->capture_default_str();
+  command->add_option("--device", options->device, "Device for contacts of spheres")
+      ->type_name("NAME")
+      ->capture_default_str();
+  command->add_flag("--verify", options->verify, "Compare every pair and contact with stock ODE");
+  command->add_flag("--stats", options->statistics, "Print one line of statistics at the end");
+  command->add_option("command", options->command, "The program and its arguments, after --")
+      ->type_name("COMMAND");
+  command->footer(
+      "The same as LD_PRELOAD=libharpoon_ode.so and variables HARPOON_...; see docs/ode.md.\n\n"
+      "Examples:\n"
+      "  harpoon run --stats -- ./my_simulation\n"
+      "  harpoon run --verify -- python3 pile.py");
+  command->callback([&context, options] { context.run = [options] { run(*options); }; });
+}
+
+}  // namespace harpoon::app

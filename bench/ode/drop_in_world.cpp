@@ -1,0 +1,206 @@
+#include "bench/ode/drop_in_world.hpp"
+
+#include <algorithm>
+#include <bit>
+#include <cmath>
+#include <numbers>
+#include <utility>
+
+#include "bench/timer.hpp"
+
+namespace harpoon::bench {
+namespace {
+
+constexpr double kRadius = 0.5;
+constexpr double kGasShare = 0.05;
+/// Of the lattice's bodies, in each direction.
+constexpr double kJitter = 0.05 * kRadius;
+/// Of every body in each step and direction.
+constexpr double kMove = 0.02 * kRadius;
+constexpr int kMaxContacts = 8;
+/// 64 x 64 squares of two triangles.
+constexpr int kGroundSquares = 64;
+constexpr int kQuadtreeDepth = 6;
+
+/// SplitMix64 (Steele, Lea, Flood 2014).
+class Numbers {
+ public:
+  explicit Numbers(std::uint64_t seed) : state_(seed) {}
+  /// Uniform in [-1, 1).
+  double next() { return static_cast<double>(bits() >> 11) * 0x1p-52 - 1; }
+  std::uint64_t bits() {
+    std::uint64_t z = (state_ += 0x9E3779B97F4A7C15u);
+    z = (z ^ (z >> 30)) * 0xBF58476D1CE4E5B9u;
+    z = (z ^ (z >> 27)) * 0x94D049BB133111EBu;
+    return z ^ (z >> 31);
+  }
+
+ private:
+  std::uint64_t state_;
+};
+
+dSpaceID make_space(std::string_view kind, double extent) {
+  const dVector3 center = {extent, extent, extent, 0}, extents = {extent, extent, extent, 0};
+  if (kind == "simple") return dSimpleSpaceCreate(nullptr);
+  if (kind == "hash") return dHashSpaceCreate(nullptr);
+  if (kind == "sap") return dSweepAndPruneSpaceCreate(nullptr, dSAP_AXES_XYZ);
+  return dQuadTreeSpaceCreate(nullptr, center, extents, kQuadtreeDepth);
+}
+
+struct Point {
+  double x, y, z;
+};
+
+std::vector<Point> lattice_points(std::size_t count, double& extent, Numbers& numbers) {
+  const double edge = 2 * std::numbers::sqrt2 * kRadius;
+  const auto cells = static_cast<std::size_t>(std::ceil(std::cbrt(static_cast<double>(count) / 4)));
+  extent = static_cast<double>(cells) * edge / 2;
+  constexpr Point kCell[4] = {{0, 0, 0}, {0.5, 0.5, 0}, {0.5, 0, 0.5}, {0, 0.5, 0.5}};
+  std::vector<Point> points;
+  for (std::size_t cell = 0; points.size() < count; ++cell) {
+    const auto i = static_cast<double>(cell / (cells * cells));
+    const auto j = static_cast<double>(cell / cells % cells), k = static_cast<double>(cell % cells);
+    for (const Point& at : kCell) {
+      if (points.size() == count) break;
+      const auto place = [&](double whole, double part) {
+        return (whole + part) * edge + numbers.next() * kJitter;
+      };
+      const double x = place(i, at.x), y = place(j, at.y), z = place(k, at.z);
+      points.push_back({x, y, z});
+    }
+  }
+  return points;
+}
+
+std::vector<Point> gas_points(std::size_t count, double& extent, Numbers& numbers) {
+  const double ball = 4.0 / 3 * std::numbers::pi * kRadius * kRadius * kRadius;
+  extent = std::cbrt(static_cast<double>(count) * ball / kGasShare) / 2;
+  std::vector<Point> points(count);
+  for (Point& p : points) {
+    p.x = (numbers.next() + 1) * extent;
+    p.y = (numbers.next() + 1) * extent;
+    p.z = (numbers.next() + 1) * extent;
+  }
+  return points;
+}
+
+dGeomID make_shape(DropInKind kind, std::size_t number) {
+  if (kind == DropInKind::mixed && number % 3 == 1) {
+    return dCreateBox(nullptr, 1.8 * kRadius, 1.8 * kRadius, 1.8 * kRadius);
+  }
+  if (kind == DropInKind::mixed && number % 3 == 2) {
+    return dCreateCapsule(nullptr, 0.7 * kRadius, kRadius);
+  }
+  return dCreateSphere(nullptr, kRadius);
+}
+
+struct Walk {
+  const CollisionCalls& calls;
+  std::uint64_t pairs = 0, contacts = 0, hash = 0;
+
+  void mix(std::uint64_t value) { hash = (hash ^ value) * 0x9E3779B97F4A7C15u + (hash >> 29); }
+};
+
+void near(void* data, dGeomID o1, dGeomID o2) {
+  Walk& walk = *static_cast<Walk*>(data);
+  dContactGeom contacts[kMaxContacts];
+  ++walk.pairs;
+  walk.contacts += static_cast<std::uint64_t>(
+      walk.calls.collide(o1, o2, kMaxContacts, contacts, sizeof(dContactGeom)));
+}
+
+void near_hashed(void* data, dGeomID o1, dGeomID o2) {
+  Walk& walk = *static_cast<Walk*>(data);
+  dContactGeom contacts[kMaxContacts];
+  const int count = walk.calls.collide(o1, o2, kMaxContacts, contacts, sizeof(dContactGeom));
+  walk.mix(reinterpret_cast<std::uintptr_t>(dGeomGetData(o1)));
+  walk.mix(reinterpret_cast<std::uintptr_t>(dGeomGetData(o2)));
+  for (int k = 0; k < count; ++k) {
+    const dContactGeom& c = contacts[k];
+    for (const dReal value :
+         {c.pos[0], c.pos[1], c.pos[2], c.normal[0], c.normal[1], c.normal[2], c.depth}) {
+      walk.mix(std::bit_cast<std::uint64_t>(static_cast<double>(value)));
+    }
+  }
+}
+
+}  // namespace
+
+DropInWorld::DropInWorld(DropInKind kind, std::string_view space, std::size_t geoms,
+                         std::uint64_t seed)
+    : kind_(kind), seed_(seed), world_(dWorldCreate()) {
+  Numbers numbers(seed);
+  std::vector<Point> points = kind == DropInKind::gas ? gas_points(geoms, extent_, numbers)
+                                                      : lattice_points(geoms, extent_, numbers);
+  // Neighbours in space are none in memory, as in a program that has run for a while.
+  for (std::size_t i = points.size(); i > 1; --i) {
+    std::swap(points[i - 1], points[numbers.bits() % i]);
+  }
+  space_ = make_space(space, extent_);
+  for (std::size_t number = 0; number < points.size(); ++number) {
+    add(make_shape(kind, number), points[number].x, points[number].y, points[number].z);
+  }
+  if (kind == DropInKind::mixed) add_ground();
+}
+
+DropInWorld::~DropInWorld() {
+  dSpaceDestroy(space_);
+  if (mesh_ != nullptr) dGeomTriMeshDataDestroy(mesh_);
+  dWorldDestroy(world_);
+}
+
+void DropInWorld::add(dGeomID geom, double x, double y, double z) {
+  const dBodyID body = dBodyCreate(world_);
+  dGeomSetData(geom, reinterpret_cast<void*>(bodies_.size()));
+  dGeomSetBody(geom, body);
+  dBodySetPosition(body, x, y, z);
+  dSpaceAdd(space_, geom);
+  bodies_.push_back({body, x, y, z});
+}
+
+void DropInWorld::add_ground() {
+  constexpr int kSide = kGroundSquares + 1;
+  for (int i = 0; i < kSide; ++i) {
+    for (int j = 0; j < kSide; ++j) {
+      const auto at = [&](int k) { return static_cast<float>(extent_ * 2.0 * k / kGroundSquares); };
+      vertices_.insert(vertices_.end(), {at(i), at(j), -0.25f});
+    }
+  }
+  for (int i = 0; i < kGroundSquares; ++i) {
+    for (int j = 0; j < kGroundSquares; ++j) {
+      const auto corner = static_cast<dTriIndex>(i * kSide + j);
+      const auto next = static_cast<dTriIndex>(corner + kSide);
+      triangles_.insert(triangles_.end(), {corner, next, corner + 1, corner + 1, next, next + 1});
+    }
+  }
+  mesh_ = dGeomTriMeshDataCreate();
+  dGeomTriMeshDataBuildSingle(mesh_, vertices_.data(), 3 * sizeof(float), kSide * kSide,
+                              triangles_.data(), static_cast<int>(triangles_.size()),
+                              3 * sizeof(dTriIndex));
+  const dGeomID ground = dCreateTriMesh(space_, mesh_, nullptr, nullptr, nullptr);
+  dGeomSetData(ground, reinterpret_cast<void*>(bodies_.size()));
+}
+
+void DropInWorld::move(unsigned step) {
+  if (kind_ == DropInKind::asleep) return;
+  Numbers numbers(seed_ * 1000003 + step);
+  for (const Body& b : bodies_) {
+    const double x = numbers.next() * kMove, y = numbers.next() * kMove, z = numbers.next() * kMove;
+    dBodySetPosition(b.body, b.x + x, b.y + y, b.z + z);
+  }
+}
+
+DropInWorld::Step DropInWorld::collide(const CollisionCalls& calls) {
+  Walk walk{calls};
+  const double begin_ns = now_ns();
+  calls.space_collide(space_, &walk, &near);
+  return {walk.pairs, walk.contacts, (now_ns() - begin_ns) * 1e-6};
+}
+
+std::uint64_t DropInWorld::fingerprint(const CollisionCalls& calls) {
+  Walk walk{calls};
+  calls.space_collide(space_, &walk, &near_hashed);
+  return walk.hash;
+}
+
+}  // namespace harpoon::bench

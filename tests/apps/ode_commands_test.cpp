@@ -1,0 +1,60 @@
+// `harpoon run` and `harpoon bench ode` as a user runs them.
+
+#include <gtest/gtest.h>
+
+#include "apps/files.hpp"
+#include "apps/process.hpp"
+#include "apps/scratch_folder.hpp"
+#include "bench/json.hpp"
+
+namespace harpoon::app {
+namespace {
+
+using bench::Json;
+
+bool contains(const std::string& text, const std::string& part) {
+  return text.find(part) != std::string::npos;
+}
+
+TEST(RunCommand, SetsThePreloadAndTheVariables) {
+  const Finished f = run_piped({"run", "--policy", "fixed", "--stats", "--", "/bin/sh", "-c",
+                                "echo $LD_PRELOAD $HARPOON_ODE $HARPOON_STATS $HARPOON_VERIFY"});
+  EXPECT_EQ(f.exit_code, 0) << f.err;
+  EXPECT_TRUE(contains(f.out, "/libharpoon_ode.so fixed 1 0")) << f.out;
+}
+
+TEST(RunCommand, EndsAsTheProgramEnds) {
+  EXPECT_EQ(run_piped({"run", "--", "/bin/sh", "-c", "exit 7"}).exit_code, 7);
+}
+
+TEST(RunCommand, NamesWhatIsWrong) {
+  const Finished nothing = run_piped({"run"});
+  EXPECT_EQ(nothing.exit_code, 2);
+  const Finished absent = run_piped({"run", "--", "/no/such/program"});
+  EXPECT_EQ(absent.exit_code, 3);
+  EXPECT_TRUE(contains(absent.err, "/no/such/program")) << absent.err;
+  EXPECT_EQ(run_piped({"run", "--policy", "fast", "--", "true"}).exit_code, 2);
+}
+
+TEST(BenchOde, EveryKindOfWorldAndSpaceIsIdentical) {
+  for (const char* kind : {"packed", "gas", "mixed", "asleep"}) {
+    const Finished f = run_piped(
+        {"bench", "ode", "--kind", kind, "--geoms", "600", "--seconds", "0", "--json", "-"});
+    ASSERT_EQ(f.exit_code, 0) << f.err;
+    const Json results = Json::parse(f.out).at("results");
+    ASSERT_EQ(results.size(), 4U);
+    for (const Json& row : results) {
+      EXPECT_EQ(row.at("kind"), kind);
+      EXPECT_EQ(row.at("geoms"), 600);
+      EXPECT_TRUE(row.at("identical")) << kind << " " << row.at("space");
+      EXPECT_GT(row.at("pairs"), 20);
+      EXPECT_GT(row.at("contacts"), 10);
+      EXPECT_GT(row.at("stock_ms"), 0.0);
+      EXPECT_GT(row.at("harpoon_ms"), 0.0);
+      EXPECT_GT(row.at("speedup"), 0.0);
+    }
+  }
+}
+
+}  // namespace
+}  // namespace harpoon::app

@@ -9,7 +9,8 @@
 Counts are of hierarchical synthesis: each module is synthesised once, so that ten SCPUs cost the
 time of one, and nothing is optimised across modules. Cells are synthesised flat. A top's parts are
 tops themselves: they enter it as black boxes and their counts are added. Results are kept under
-build/synth and used again while the sources are the same, so a run that was cut off goes on.
+build/synth and used again while the sources that they need are the same, so a run that was cut off
+goes on. yosys may take MEMORY_GB; a top that needs more fails by itself, not the machine.
 """
 
 import argparse
@@ -20,6 +21,7 @@ import hashlib
 import os
 import pathlib
 import re
+import resource
 import shutil
 import subprocess
 import sys
@@ -30,6 +32,7 @@ DOCUMENT = ROOT / "docs" / "rtl-synthesis.md"
 ROOMS = ("pkg", "generated", "fp", "cells", "scpu", "spl2", "puc", "afu")
 YOSYS_JS = "@yowasp/yosys@0.55.944"
 TIMING_TITLE = "## Timing of the cells"
+MEMORY_GB = 9
 
 
 @dataclasses.dataclass(frozen=True)
@@ -66,15 +69,29 @@ SCPU_CULL = Top("scpu_cull")
 SPHERE_TABLE = Top("sphere_table", (("Ports", 1),))
 
 
+def table_copies(lanes: int) -> int:
+    """An FPGA's RAM has one read port, so the sphere table is a copy for each: two for a lane, four
+    behind the lanes. Stock yosys runs out of memory when it must find that out for 24."""
+    return 2 * lanes + 4
+
+
+def lanes(count: int) -> Top:
+    parts = (Part(SCPU_CULL), Part(SPHERE_TABLE, copies=table_copies(count)))
+    return Top("index_lanes", (("Lanes", count),), parts)
+
+
+def array(scpus: int) -> Top:
+    return Top("scpu_array", (("NumScpu", scpus),), (Part(SCPU),))
+
+
 def afu(scpus: int) -> Top:
-    """The AFU. An FPGA's RAM has one read port, so a table with two ports an SCPU is that many
-    copies; stock yosys runs out of memory when it must find that out for twenty."""
-    parts = (Part(SCPU), Part(SCPU_CULL), Part(SPHERE_TABLE, copies=2 * scpus))
+    parts = (Part(SCPU), Part(SCPU_CULL), Part(SPHERE_TABLE, copies=table_copies(scpus)))
     return Top("harpoon_afu", (("NumScpu", scpus),), parts)
 
 
 TOPS = CELLS + [SCPU, SCPU_CULL, Top("sphere_plane"), Top("aabb_overlap"), SPHERE_TABLE,
-                afu(1), afu(10)]
+                Top("afu_registers"), Top("spl2"), Top("collector"), Top("dispatcher"),
+                array(1), array(10), lanes(1), lanes(10), afu(1), afu(10)]
 
 
 @dataclasses.dataclass(frozen=True, eq=False)
@@ -117,11 +134,27 @@ def read_commands(top: Top, files: list[str]) -> str:
     return f"read_verilog -sv {' '.join(files)}\nhierarchy -check -top {top.module}{parameters}\n"
 
 
+@functools.cache
+def needs(module: str) -> frozenset[str]:
+    """The modules and packages that a module names, itself and theirs included."""
+    texts = {file.stem: file.read_text() for file in sources()}
+    found, todo = set(), [module]
+    while todo:
+        name = todo.pop()
+        if name in found or name not in texts:
+            continue
+        found.add(name)
+        todo += set(re.findall(r"\w+", texts[name])) & texts.keys()
+    return frozenset(found)
+
+
 def key_of(script: str) -> str:
-    """Changes with the script and with any source."""
+    """Changes with the script and with any source that its top needs."""
     digest = hashlib.sha256(script.encode())
+    top = re.search(r"-top (\w+)", script)[1]
     for file in sources():
-        digest.update(file.read_bytes())
+        if file.stem in needs(top):
+            digest.update(file.read_bytes())
     return digest.hexdigest()
 
 
@@ -135,13 +168,18 @@ def keep(name: str, script: str) -> None:
     (WORK / f"{name}.key").write_text(key_of(script))
 
 
+def limit_memory() -> None:
+    resource.setrlimit(resource.RLIMIT_AS, (MEMORY_GB << 30, MEMORY_GB << 30))
+
+
 def yosys(script: str, name: str) -> None:
     """Runs stock yosys; its messages stay in the work folder, and are shown when it fails."""
     path = WORK / f"{name}.ys"
     path.write_text(script)
     log = WORK / f"{name}.log"
     command = ["yosys", "-q", "-l", str(log), "-s", str(path)]
-    result = subprocess.run(command, cwd=WORK, capture_output=True, text=True, check=False)
+    result = subprocess.run(command, cwd=WORK, capture_output=True, text=True, check=False,
+                            preexec_fn=limit_memory)
     if result.returncode != 0:
         errors = [line for line in result.stderr.splitlines() if "ERROR" in line]
         raise RuntimeError(f"{name}: {' '.join(errors) or result.stderr[-500:]} (see {log})")

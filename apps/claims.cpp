@@ -92,19 +92,32 @@ Claim judge_speedup(const Evidence& figure7) {
       percent >= kPaperPercent ? "exceeded" : "not reached here"};
 }
 
-// As found: the AFU's points are fewer, and its time is not measured but counted in cycles.
-std::string afu_break_even(const Evidence& figure6) {
-  const auto against = [&](const bench::Series& ode, const char* name) {
-    const auto count = break_even(*figure6.afu, ode);
-    return count ? fmt::format("ahead of {} from {} collisions on", name, *count)
-                 : fmt::format("not ahead of {} at {}", name, figure6.afu->points.back().count);
-  };
-  return fmt::format("Our AFU{} is {}, and {}.", figure6.afu->label.modelled ? " (modelled)" : "",
-                     against(figure6.ode_figure5, "ODE as timed in Figure 5"),
-                     against(figure6.ode, "ODE as one batch"));
+// Figure 7's points after Figure 6's, but for the counts that both have.
+bench::Series joined(const bench::Series& figure6, const bench::Series& figure7) {
+  bench::Series both = figure6;
+  for (const bench::Measurement& point : figure7.points) {
+    if (point.count > both.points.back().count) {
+      both.points.push_back(point);
+    }
+  }
+  return both;
 }
 
-Claim judge_break_even(const Evidence& figure6) {
+// As found: the AFU's points are fewer, and its time is not measured but counted in cycles.
+std::string afu_break_even(const Evidence& figure6, const Evidence& figure7) {
+  const bench::Series afu = joined(*figure6.afu, *figure7.afu);
+  const auto against = [&](const bench::Series& ode, const char* name) {
+    const auto count = break_even(afu, ode);
+    return count ? fmt::format("ahead of {} from {} collisions on", name, *count)
+                 : fmt::format("not ahead of {} at {}", name, afu.points.back().count);
+  };
+  return fmt::format(
+      "Our AFU{} is {}, and {}.", afu.label.modelled ? " (modelled)" : "",
+      against(joined(figure6.ode_figure5, figure7.ode_figure5), "ODE as timed in Figure 5"),
+      against(joined(figure6.ode, figure7.ode), "ODE as one batch"));
+}
+
+Claim judge_break_even(const Evidence& figure6, const std::optional<Evidence>& figure7) {
   Claim claim{fmt::format("Above {} collisions the accelerator is always better, because of 2000 "
                           "milliseconds (which must be nanoseconds) of set-up.",
                           kPaperBreakEven),
@@ -121,8 +134,8 @@ Claim judge_break_even(const Evidence& figure6) {
     claim.ours = fmt::format("cpu f32 stays ahead of ODE from {} collisions on.", *count);
     claim.verdict = *count <= kPaperBreakEven ? "holds" : "does not hold here";
   }
-  if (figure6.afu != nullptr) {
-    claim.ours.append(" ").append(afu_break_even(figure6));
+  if (figure6.afu != nullptr && figure7 && figure7->afu != nullptr) {
+    claim.ours.append(" ").append(afu_break_even(figure6, *figure7));
   }
   return claim;
 }
@@ -178,7 +191,7 @@ std::vector<Claim> judge_claims(const Experiment& experiment) {
     claims.push_back(judge_speedup(*figure7));
   }
   if (figure6) {
-    claims.push_back(judge_break_even(*figure6));
+    claims.push_back(judge_break_even(*figure6, figure7));
   }
   claims.push_back(judge_grazing(experiment.figure7.census));
   return claims;

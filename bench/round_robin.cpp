@@ -15,8 +15,9 @@ bool RoundRobin::takes_part(const Label& label, std::size_t count_index) const {
     return true;
   }
   const bool is_last = count_index + 1 == counts_.size();
-  return rounds_ == 0 && counts_[count_index] <= kMostModelledPairs &&
-         (is_last || count_index % kModelledStride == 0);
+  const std::size_t count = counts_[count_index];
+  return rounds_ == 0 && count <= kMostModelledPairs &&
+         (is_last || count <= kFewModelledPairs || count_index % kModelledStride == 0);
 }
 
 Result<bool> RoundRobin::round(const Tick& tick, const Interrupted& interrupted) {

@@ -30,8 +30,9 @@ struct Series {
 };
 
 /// A modelled contestant is deterministic and slow to simulate: it takes part in the first round
-/// only, of a sweep it does only every kModelledStride-th count and the last, and it does no batch
-/// of more than kMostModelledPairs.
+/// only, of the counts above kFewModelledPairs it does only every kModelledStride-th and the last,
+/// and it does no batch of more than kMostModelledPairs.
+inline constexpr std::size_t kFewModelledPairs = 10000;
 inline constexpr std::size_t kModelledStride = 10;
 inline constexpr std::size_t kMostModelledPairs = 100000;
 

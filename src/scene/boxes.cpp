@@ -12,6 +12,8 @@ namespace {
 /// Boxes much larger than the rest or far away from it are taken out of the grid when they are no
 /// more than this: each costs a pass over all others.
 constexpr std::size_t kFew = 32;
+/// Up to this many boxes none is worth a grid: all pairs, sixteen at a time, are quicker.
+constexpr std::size_t kScanAll = 96;
 /// Times they are looked for anew, the rest having been measured without them.
 constexpr int kFewRounds = 4;
 /// A radius for boxes that are points.
@@ -48,6 +50,11 @@ struct BoxMap {
     } else {
       return static_cast<Cull>(value);
     }
+  }
+  /// The same for boxes that may be infinite.
+  [[nodiscard]] Cull clamped(Real value, int axis) const noexcept {
+    constexpr Cull kMost = std::numeric_limits<Cull>::max();
+    return std::clamp((*this)(value, axis), -kMost, kMost);
   }
 };
 
@@ -178,9 +185,10 @@ class BoxSorter {
     return std::nullopt;
   }
 
-  /// The largest radius when the few boxes of the top size classes are left out; negative when all
-  /// boxes are few.
+  /// The largest radius when the few boxes of the top size classes are left out; negative when no
+  /// box is to be in a grid.
   [[nodiscard]] double largest_of_many() const noexcept {
+    if (survey_.census.bodies <= kScanAll) return -1;
     std::size_t few = 0;
     for (const RadiusClass& size : survey_.census.classes) {
       few += size.bodies;
@@ -256,9 +264,9 @@ class BoxSorter {
     for (std::size_t p = bodies.bodies; p < all; ++p) {
       const std::uint32_t id = memory_.scanned[p - bodies.bodies];
       bodies.ids[p] = id;
-      bodies.cull.x[p] = map_(source_[id][0], 0);
-      bodies.cull.y[p] = map_(source_[id][2], 1);
-      bodies.cull.z[p] = map_(source_[id][4], 2);
+      bodies.cull.x[p] = map_.clamped(source_[id][0], 0);
+      bodies.cull.y[p] = map_.clamped(source_[id][2], 1);
+      bodies.cull.z[p] = map_.clamped(source_[id][4], 2);
     }
     for (Cull* array : {bodies.cull.high_x, bodies.cull.high_y, bodies.cull.high_z}) {
       std::fill(array + all, array + with_slack, Cull(0));
@@ -266,9 +274,9 @@ class BoxSorter {
     if (auto error = in_tasks(all, [&](std::size_t begin, std::size_t end) {
           for (std::size_t p = begin; p < end; ++p) {
             const Real* const box = source_[bodies.ids[p]];
-            bodies.cull.high_x[p] = map_(box[1], 0);
-            bodies.cull.high_y[p] = map_(box[3], 1);
-            bodies.cull.high_z[p] = map_(box[5], 2);
+            bodies.cull.high_x[p] = map_.clamped(box[1], 0);
+            bodies.cull.high_y[p] = map_.clamped(box[3], 1);
+            bodies.cull.high_z[p] = map_.clamped(box[5], 2);
           }
         })) {
       return *std::move(error);

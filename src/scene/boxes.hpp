@@ -39,8 +39,7 @@ template <class Real, class Cull>
 struct OrderedBoxes : BoxJudge {
   Ordered<Cull, Cull> bodies;
   BoxSource<Real> source;
-  /// The rounding to culling coordinates may make two boxes touch: then the search asks the judge.
-  static constexpr bool kNeedsJudge = sizeof(Cull) < sizeof(Real);
+  static constexpr bool kRounded = sizeof(Cull) < sizeof(Real);
 };
 
 /// What became of an attempt to order.

@@ -57,8 +57,7 @@ struct RoomMaker {
   void (*make_room)(RoomMaker& self, Candidates& list) = nullptr;
 };
 
-/// Decides about two boxes, given by sorted position, of which culling cannot tell whether they
-/// touch.
+/// Decides about two boxes, given by sorted position, in the caller's numbers.
 struct BoxJudge {
   bool (*overlap)(const BoxJudge& self, std::uint32_t i, std::uint32_t j) = nullptr;
 };
@@ -70,7 +69,10 @@ struct SearchJob {
   CullArrays<Cull> bodies;
   std::uint32_t scanned_begin = 0;  ///< sorted positions of bodies that are in no grid
   std::uint32_t scanned_end = 0;
-  const BoxJudge* judge = nullptr;  ///< null where culling is exact; boxes only
+  const BoxJudge* judge = nullptr;  ///< of boxes
+  /// Whether boxes in grids that touch in culling coordinates are judged, because rounding may have
+  /// brought them together. Scanned ones are in any case.
+  bool judge_touching = false;
 };
 
 /// Candidates of the bodies [begin, end) of one level, a block: among themselves and later bodies

@@ -40,8 +40,7 @@ Result<bool> run_in(Workspace::State& state, const BoundsOf<Real>& boxes, std::s
   if (!done) return done.error();
   if (*done != scene::BoxOrder::done) return *done == scene::BoxOrder::nothing;
   report.times.order_ns = watch.lap_ns();
-  const scene::SearchRule rule{scene::SearchRule::Kind::boxes,
-                               ordered.kNeedsJudge ? &ordered : nullptr};
+  const scene::SearchRule rule{scene::SearchRule::Kind::boxes, &ordered, ordered.kRounded};
   const OverlapSink sink{ordered.bodies.ids, out};
   if (auto error = scene::find_and_write(state, means, ordered.bodies, rule, boxes.filters, sink,
                                          order, boxes.count, watch, report)) {

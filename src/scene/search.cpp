@@ -166,7 +166,8 @@ std::optional<Error> search(const Means& means, const Ordered<Real, Cull>& bodie
                             bodies.cull,
                             scanned,
                             scanned + static_cast<std::uint32_t>(bodies.scanned),
-                            rule.judge};
+                            rule.judge,
+                            rule.judge_touching};
   const auto kernel = rule.kind == SearchRule::Kind::boxes
                           ? kernels.template cull<Cull>().search_boxes
                           : kernels.template cull<Cull>().search;

@@ -59,7 +59,8 @@ struct SearchRule {
     boxes,             ///< candidates overlap
   };
   Kind kind = Kind::touching_spheres;
-  const BoxJudge* judge = nullptr;
+  const BoxJudge* judge = nullptr;  ///< of boxes
+  bool judge_touching = false;
 };
 
 /// Searches. When more than `limit` contacts exist, they are counted, not kept: then the sum of

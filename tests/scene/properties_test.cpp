@@ -16,11 +16,11 @@ namespace {
 
 using Lattice = std::vector<std::tuple<int, int, int, int>>;  ///< x, y, z, size in sixteenths
 
-/// Crowded enough for contacts at every size; the range of places grows with RapidCheck's size.
+/// Up to several hundred bodies, crowded enough for contacts.
 rc::Gen<Lattice> worlds() {
   const auto place = rc::gen::inRange(-60, 60);
   const auto body = rc::gen::tuple(place, place, place, rc::gen::inRange(0, 24));
-  return rc::gen::scale(3, rc::gen::container<Lattice>(body));
+  return rc::gen::scale(7, rc::gen::container<Lattice>(body));
 }
 
 std::vector<SphereF64> spheres_of(const Lattice& lattice, std::array<int, 3> by = {0, 0, 0}) {

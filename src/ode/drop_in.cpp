@@ -7,6 +7,7 @@
 #include <string_view>
 #include <utility>
 
+#include "ode/device_plugin.hpp"
 #include "ode/interposed.hpp"
 #include "ode/log.hpp"
 
@@ -28,7 +29,7 @@ std::unique_ptr<Device> open_contact_device(const Options& options) {
     return nullptr;
   }
   if (options.device == kCpu) return std::move(*cpu);
-  Result<std::unique_ptr<Device>> wanted = open_device(options.device);
+  Result<std::unique_ptr<Device>> wanted = open_device_plugin(options.device);
   if (!wanted) {
     write_log_line(LogLevel::warning,
                    fmt::format("{}; contacts come from cpu", wanted.error().message));

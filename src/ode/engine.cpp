@@ -314,6 +314,7 @@ void EngineOf<Real>::replay_record(Record& record, LiveCheck live, void* data,
                                    NearCallback* callback) {
   const std::shared_ptr<Record> alive = table_.hold(record.space);
   Statistics::add(statistics_.pairs, record.pairs.size());
+  record.contacts.rewind(record.was_unchanged);
   Frame<Real> frame(record.space);
   frame.default_rules = computes_by_default_rules();
   Replayer<Real>{ode_, user_tests_, data, callback}.replay(

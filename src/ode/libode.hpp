@@ -1,46 +1,14 @@
 #pragma once
 
-// What the drop-in calls of the libode that it serves: a table of functions, filled by name. Tests
-// fill it from the linked library, the preload from whatever libode the process has loaded.
+// Fills the table of functions that the drop-in calls by name: tests from the linked library, the
+// preload from whatever libode the process has loaded.
 
 #include <string_view>
+#include <type_traits>
 
 #include "ode/types.hpp"
 
 namespace harpoon::ode {
-
-template <class Real>
-struct LibodeOf {
-  void (*space_collide)(dxSpace*, void*, NearCallback*) = nullptr;
-  void (*space_collide2)(dxGeom*, dxGeom*, void*, NearCallback*) = nullptr;
-  void (*space_clean)(dxSpace*) = nullptr;
-  int (*space_get_num_geoms)(dxSpace*) = nullptr;
-  dxGeom* (*space_get_geom)(dxSpace*, int) = nullptr;
-  int (*space_get_sublevel)(dxSpace*) = nullptr;
-  void (*hash_space_get_levels)(dxSpace*, int*, int*) = nullptr;
-
-  int (*collide)(dxGeom*, dxGeom*, int, ContactGeomOf<Real>*, int) = nullptr;
-
-  int (*geom_get_class)(dxGeom*) = nullptr;
-  int (*geom_is_enabled)(dxGeom*) = nullptr;
-  void (*geom_enable)(dxGeom*) = nullptr;
-  void (*geom_disable)(dxGeom*) = nullptr;
-  dxSpace* (*geom_get_space)(dxGeom*) = nullptr;
-  dxBody* (*geom_get_body)(dxGeom*) = nullptr;
-  unsigned long (*geom_get_category_bits)(dxGeom*) = nullptr;
-  unsigned long (*geom_get_collide_bits)(dxGeom*) = nullptr;
-  void (*geom_get_aabb)(dxGeom*, Real*) = nullptr;
-  const Real* (*geom_get_position)(dxGeom*) = nullptr;
-  Real (*sphere_get_radius)(dxGeom*) = nullptr;
-  void (*box_get_lengths)(dxGeom*, Real*) = nullptr;
-  void (*capsule_get_params)(dxGeom*, Real*, Real*) = nullptr;
-  void (*cylinder_get_params)(dxGeom*, Real*, Real*) = nullptr;
-
-  // For the self-test of the sphere collider only.
-  dxGeom* (*create_sphere)(dxSpace*, Real) = nullptr;
-  void (*geom_set_position)(dxGeom*, Real, Real, Real) = nullptr;
-  void (*geom_destroy)(dxGeom*) = nullptr;
-};
 
 /// Fills the table by `find(name)`, which returns the address of a symbol or null. False when one
 /// is missing; then `missing` names it.

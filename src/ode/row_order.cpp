@@ -5,20 +5,22 @@
 namespace harpoon::ode {
 namespace {
 
-/// Rows up to this length are sorted by insertion.
+/// Rows up to this length are sorted by counting smaller keys.
 constexpr std::size_t kShortRow = 24;
 
-void sort_row(std::span<KeyedPair> row) {
+/// Writes the row to `out` by key. Keys differ.
+void put_sorted(std::span<KeyedPair> row, IndexPair* out) {
   if (row.size() > kShortRow) {
     std::sort(row.begin(), row.end(),
               [](const KeyedPair& a, const KeyedPair& b) { return a.key < b.key; });
+    for (const KeyedPair& pair : row) *out++ = {pair.first, pair.second};
     return;
   }
-  for (std::size_t i = 1; i < row.size(); ++i) {
-    const KeyedPair pair = row[i];
-    std::size_t hole = i;
-    for (; hole > 0 && row[hole - 1].key > pair.key; --hole) row[hole] = row[hole - 1];
-    row[hole] = pair;
+  // Rows are short and in no order: without branches there is nothing to mispredict.
+  for (const KeyedPair& pair : row) {
+    std::size_t place = 0;
+    for (const KeyedPair& other : row) place += other.key < pair.key ? 1 : 0;
+    out[place] = {pair.first, pair.second};
   }
 }
 
@@ -26,14 +28,14 @@ void sort_row(std::span<KeyedPair> row) {
 
 /// After the scatter `starts_` holds where each row ends.
 void RowOrder::finish(std::vector<IndexPair>& out, std::uint32_t rows) {
+  const std::size_t position = out.size();
+  out.resize(position + sorted_.size());
   std::size_t begin = 0;
   for (std::uint32_t row = 0; row < rows; ++row) {
-    sort_row(std::span(sorted_).subspan(begin, starts_[row] - begin));
+    put_sorted(std::span(sorted_).subspan(begin, starts_[row] - begin),
+               out.data() + position + begin);
     begin = starts_[row];
   }
-  std::size_t position = out.size();
-  out.resize(position + sorted_.size());
-  for (const KeyedPair& pair : sorted_) out[position++] = {pair.first, pair.second};
 }
 
 }  // namespace harpoon::ode

@@ -167,12 +167,17 @@ std::optional<Error> SapOrder<Real>::search(const Mirror<Real>& mirror,
   for (std::uint32_t k = 0; k < ranks_.size(); ++k) rank_of_geom_[bounded_[ranks_[k]]] = k;
   rows.pairs.resize(pairs->size());
   for (std::size_t k = 0; k < pairs->size(); ++k) {
-    const auto [i, j] = (*pairs)[k];
-    const std::uint32_t rank_i = rank_of_geom_[i], rank_j = rank_of_geom_[j];
-    rows.pairs[k] = rank_i < rank_j ? KeyedPair{rank_j, i, j} : KeyedPair{rank_i, j, i};
+    const std::uint32_t rank1 = rank_of_geom_[(*pairs)[k].g1];
+    const std::uint32_t rank2 = rank_of_geom_[(*pairs)[k].g2];
+    const std::uint32_t later = std::max(rank1, rank2);
+    rows.pairs[k] = {later, std::min(rank1, rank2), later};
   }
+  const std::size_t begin = out.size();
   rows.append_to(out, static_cast<std::uint32_t>(ranks_.size()),
-                 [this](std::uint32_t first) { return rank_of_geom_[first]; });
+                 [](std::uint32_t rank) { return rank; });
+  for (std::size_t k = begin; k < out.size(); ++k) {
+    out[k] = {bounded_[ranks_[out[k].g1]], bounded_[ranks_[out[k].g2]]};
+  }
   return std::nullopt;
 }
 

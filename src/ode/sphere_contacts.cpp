@@ -11,6 +11,8 @@ namespace {
 constexpr std::size_t kFirstBlock = 64;
 constexpr std::size_t kSmallestBlock = 8;
 constexpr std::size_t kLargestBlock = 512;
+/// Whose contacts are kept from frame to frame while nothing changes: 64 MB in binary64.
+constexpr std::size_t kMostKeptPairs = std::size_t{1} << 20;
 
 }  // namespace
 
@@ -22,8 +24,14 @@ void SphereContacts<Real>::reset() {
 }
 
 template <class Real>
+void SphereContacts<Real>::rewind(bool once_more) {
+  keeps_all_ = once_more;
+  if (begin_ == 0) cursor_ = next_ = 0;
+}
+
+template <class Real>
 std::size_t SphereContacts<Real>::next_size(const ContactSource& source, std::size_t pairs) const {
-  if (source.whole_frames) return pairs;
+  if (source.whole_frames || (keeps_all_ && pairs <= kMostKeptPairs)) return pairs;
   if (size_ == 0) return kFirstBlock;
   const std::size_t last = end_ - begin_;
   if (asked_ * 2 >= last) return std::min(size_ * 2, kLargestBlock);
@@ -85,7 +93,7 @@ template <class Real>
 void SphereContacts<Real>::load(const ContactSource& source, const Mirror<Real>& mirror,
                                 std::span<const IndexPair> pairs, std::size_t k) {
   size_ = next_size(source, pairs.size());
-  begin_ = source.whole_frames ? 0 : k;
+  begin_ = size_ == pairs.size() ? 0 : k;
   end_ = std::min(begin_ + size_, pairs.size());
   cursor_ = begin_;
   next_ = 0;

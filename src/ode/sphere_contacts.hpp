@@ -34,6 +34,10 @@ class SphereContacts {
     touching,  ///< `contact` is that of the pair
   };
 
+  /// To be called when a replay begins. Pairs that are replayed once more are worth keeping all
+  /// contacts for, up to a limit.
+  void rewind(bool once_more);
+
   /// Whether the block in hand answers for pair number `k`.
   [[nodiscard]] bool has(std::size_t k) const { return k >= cursor_ && k < end_; }
 
@@ -74,6 +78,7 @@ class SphereContacts {
   std::vector<BodyContactOf<Real>> contacts_;  ///< `hits_` of them and a mark
   std::uint64_t hits_ = 0;
   bool failed_ = false;
+  bool keeps_all_ = false;
   std::vector<BodyContactOf<float>> single_contacts_;
   std::vector<SphereOf<float>> single_spheres_;
   bool single_spheres_valid_ = false;

@@ -1,20 +1,14 @@
 #pragma once
 
-// The part of libode's binary interface that the drop-in meets: handles, class numbers, the contact
-// record. Written out here so that one binary serves libode in both precisions without its headers.
+// What the drop-in knows of libode's binary interface besides the public header: class numbers and
+// flags. Written out here so that one binary serves libode in both precisions without its headers.
 
 #include <cstddef>
 #include <cstdint>
 
-extern "C" {
-struct dxGeom;
-struct dxSpace;
-struct dxBody;
-}
+#include "harpoon/ode.hpp"
 
 namespace harpoon::ode {
-
-using NearCallback = void(void* data, dxGeom* o1, dxGeom* o2);
 
 /// Numbers that dGeomGetClass returns.
 namespace geom_class {
@@ -33,17 +27,6 @@ inline constexpr int kUserClasses = 4;
 [[nodiscard]] constexpr bool is_space_class(int number) {
   return number >= geom_class::kSimpleSpace && number <= geom_class::kQuadtreeSpace;
 }
-
-/// dContactGeom.
-template <class Real>
-struct ContactGeomOf {
-  Real pos[4];
-  Real normal[4];
-  Real depth;
-  dxGeom *g1, *g2;
-  int side1, side2;
-};
-static_assert(sizeof(ContactGeomOf<double>) == 96 && sizeof(ContactGeomOf<float>) == 64);
 
 /// The bits of dCollide's flags that hold the largest number of contacts.
 inline constexpr int kContactCountMask = 0xffff;

@@ -36,6 +36,45 @@ TEST(RunCommand, NamesWhatIsWrong) {
   EXPECT_EQ(run_piped({"run", "--policy", "fast", "--", "true"}).exit_code, 2);
 }
 
+/// The paper's system: the diamond in ODE with its contacts from a device.
+std::string diamond_positions(const ScratchFolder& folder, const char* name,
+                              const std::vector<std::string>& options) {
+  std::vector<std::string> words = {"run", "--stats"};
+  words.insert(words.end(), options.begin(), options.end());
+  const std::string out = (folder / name).string();
+  words.insert(words.end(),
+               {"--", "/proc/self/exe", "diamond", "--hmax", "3", "--steps", "30", "--out", out});
+  const Finished f = run_piped(words);
+  EXPECT_EQ(f.exit_code, 0) << f.err;
+  EXPECT_TRUE(contains(f.err, "30 searched")) << f.err;
+  return read_file((folder / name) / "positions.csv");
+}
+
+TEST(RunCommand, TheDiamondIsStocksToTheLastBit) {
+  const ScratchFolder folder;
+  const Finished f =
+      run_piped({"diamond", "--hmax", "3", "--steps", "30", "--out", (folder / "stock").string()});
+  ASSERT_EQ(f.exit_code, 0) << f.err;
+  EXPECT_EQ(diamond_positions(folder, "exact", {}), read_file(folder / "stock" / "positions.csv"));
+}
+
+TEST(RunCommand, TheDiamondInBinary32IsTheSameOnEveryDevice) {
+  const ScratchFolder folder;
+  const std::string cpu = diamond_positions(folder, "cpu", {"--precision", "f32"});
+  EXPECT_NE(cpu, diamond_positions(folder, "exact", {}));
+#if HARPOON_WITH_SIMULATED_AFU
+  EXPECT_EQ(diamond_positions(folder, "afu", {"--precision", "f32", "--device", "afu"}), cpu);
+#endif
+}
+
+TEST(RunCommand, ADeviceThatIsNotThereIsNamedAndCpuServes) {
+  const ScratchFolder folder;
+  const Finished g = run_piped({"run", "--device", "abacus", "--", "/proc/self/exe", "diamond",
+                                "--steps", "2", "--out", (folder / "out").string()});
+  EXPECT_EQ(g.exit_code, 0) << g.err;
+  EXPECT_TRUE(contains(g.err, "abacus")) << g.err;
+}
+
 TEST(BenchOde, EveryKindOfWorldAndSpaceIsIdentical) {
   for (const char* kind : {"packed", "gas", "mixed", "asleep"}) {
     const Finished f = run_piped(

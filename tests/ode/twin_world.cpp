@@ -205,7 +205,7 @@ void World::change_one() {
   Slot& slot = slots_[number];
   const dGeomID geom = slot.geom;
   const bool placeable = dGeomGetClass(geom) != dPlaneClass;
-  switch (random_.below(12)) {
+  switch (random_.below(plan_.keeps_geoms ? 8 : 12)) {
     default:
       place(number);
       return;

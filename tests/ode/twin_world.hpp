@@ -39,7 +39,8 @@ struct WorldPlan {
   bool toggles_in_callbacks = false;
   bool nested_calls = false;
   bool user_class = false;
-  bool two_spaces = true;  ///< a second space with geoms to collide against the first
+  bool keeps_geoms = false;  ///< none is made, destroyed or moved between bodies after the start
+  bool two_spaces = true;    ///< a second space with geoms to collide against the first
 };
 
 class World {

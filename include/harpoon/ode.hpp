@@ -1,0 +1,155 @@
+#pragma once
+
+/// ODE by hand: for programs that link ODE statically, and for contacts without callbacks. A
+/// program that is linked to libode.so needs nothing of it: LD_PRELOAD=libharpoon_ode.so
+/// (docs/ode.md).
+///
+/// Not part of harpoon.hpp; link to libharpoon_ode. It works beside the preload. `Real` is dReal.
+
+#include <memory>
+#include <span>
+
+#include "harpoon/device.hpp"
+#include "harpoon/error.hpp"
+#include "harpoon/export.hpp"
+
+// ODE's handles: dGeomID, dSpaceID and dBodyID are pointers to these.
+struct dxGeom;
+struct dxSpace;
+struct dxBody;
+
+namespace harpoon::ode {
+
+/// dNearCallback.
+using NearCallback = void(void* data, dxGeom* o1, dxGeom* o2);
+
+/// dContactGeom, member by member.
+template <class Real>
+struct ContactGeomOf {
+  Real pos[4];
+  Real normal[4];
+  Real depth;
+  dxGeom *g1, *g2;
+  int side1, side2;
+};
+static_assert(sizeof(ContactGeomOf<double>) == 96 && sizeof(ContactGeomOf<float>) == 64);
+
+/// The functions of ODE that Harpoon calls, each under its name in ODE without the d: any build of
+/// ODE can be served. All must be set.
+template <class Real>
+struct LibodeOf {
+  void (*space_collide)(dxSpace*, void*, NearCallback*) = nullptr;
+  void (*space_collide2)(dxGeom*, dxGeom*, void*, NearCallback*) = nullptr;
+  void (*space_clean)(dxSpace*) = nullptr;
+  int (*space_get_num_geoms)(dxSpace*) = nullptr;
+  dxGeom* (*space_get_geom)(dxSpace*, int) = nullptr;
+  int (*space_get_sublevel)(dxSpace*) = nullptr;
+  void (*hash_space_get_levels)(dxSpace*, int*, int*) = nullptr;
+
+  int (*collide)(dxGeom*, dxGeom*, int, ContactGeomOf<Real>*, int) = nullptr;
+
+  int (*geom_get_class)(dxGeom*) = nullptr;
+  int (*geom_is_enabled)(dxGeom*) = nullptr;
+  void (*geom_enable)(dxGeom*) = nullptr;
+  void (*geom_disable)(dxGeom*) = nullptr;
+  dxSpace* (*geom_get_space)(dxGeom*) = nullptr;
+  dxBody* (*geom_get_body)(dxGeom*) = nullptr;
+  unsigned long (*geom_get_category_bits)(dxGeom*) = nullptr;
+  unsigned long (*geom_get_collide_bits)(dxGeom*) = nullptr;
+  void (*geom_get_aabb)(dxGeom*, Real*) = nullptr;
+  const Real* (*geom_get_position)(dxGeom*) = nullptr;
+  Real (*sphere_get_radius)(dxGeom*) = nullptr;
+  void (*box_get_lengths)(dxGeom*, Real*) = nullptr;
+  void (*capsule_get_params)(dxGeom*, Real*, Real*) = nullptr;
+  void (*cylinder_get_params)(dxGeom*, Real*, Real*) = nullptr;
+
+  // Used once, to see whether Harpoon's contacts of spheres have the bits of this build of ODE.
+  dxGeom* (*create_sphere)(dxSpace*, Real) = nullptr;
+  void (*geom_set_position)(dxGeom*, Real, Real, Real) = nullptr;
+  void (*geom_destroy)(dxGeom*) = nullptr;
+};
+
+#if defined(_ODE_COLLISION_H_)
+/// The functions that this program is linked to. There when <ode/ode.h> is included before this
+/// header.
+inline LibodeOf<dReal> linked_libode() {
+  LibodeOf<dReal> ode;
+  ode.space_collide = &dSpaceCollide;
+  ode.space_collide2 = &dSpaceCollide2;
+  ode.space_clean = &dSpaceClean;
+  ode.space_get_num_geoms = &dSpaceGetNumGeoms;
+  ode.space_get_geom = &dSpaceGetGeom;
+  ode.space_get_sublevel = &dSpaceGetSublevel;
+  ode.hash_space_get_levels = &dHashSpaceGetLevels;
+  ode.collide = reinterpret_cast<decltype(ode.collide)>(&dCollide);
+  ode.geom_get_class = &dGeomGetClass;
+  ode.geom_is_enabled = &dGeomIsEnabled;
+  ode.geom_enable = &dGeomEnable;
+  ode.geom_disable = &dGeomDisable;
+  ode.geom_get_space = &dGeomGetSpace;
+  ode.geom_get_body = &dGeomGetBody;
+  ode.geom_get_category_bits = &dGeomGetCategoryBits;
+  ode.geom_get_collide_bits = &dGeomGetCollideBits;
+  ode.geom_get_aabb = &dGeomGetAABB;
+  ode.geom_get_position = &dGeomGetPosition;
+  ode.sphere_get_radius = &dGeomSphereGetRadius;
+  ode.box_get_lengths = &dGeomBoxGetLengths;
+  ode.capsule_get_params = &dGeomCapsuleGetParams;
+  ode.cylinder_get_params = &dGeomCylinderGetParams;
+  ode.create_sphere = &dCreateSphere;
+  ode.geom_set_position = &dGeomSetPosition;
+  ode.geom_destroy = &dGeomDestroy;
+  return ode;
+}
+#endif
+
+struct ColliderOptions {
+  /// Pairs that a stock hash space misses are reported as well.
+  bool with_missed_pairs = false;
+  /// Receives what would otherwise have ended the program. May be empty.
+  LogCallback log = {};
+};
+
+/// Collides spaces as ODE does: the same pairs in the same order, the same contacts.
+///
+/// Nothing tells it of changes, so every call reads all geoms of the space; ODE's own calls may be
+/// mixed with it at will. Sweep-and-prune spaces are Harpoon's only when `sap_created` was called;
+/// they and quadtrees are otherwise collided by ODE. Threads: as ODE, spaces of different threads
+/// at the same time.
+template <class Real>
+class HARPOON_API ColliderOf {
+ public:
+  /// Errors: invalid_argument (a function is missing), out_of_memory.
+  static Result<ColliderOf> make(const LibodeOf<Real>& ode,
+                                 const ColliderOptions& options = {}) noexcept;
+  ColliderOf(ColliderOf&& other) noexcept;
+  ColliderOf& operator=(ColliderOf&& other) noexcept;
+  ColliderOf(const ColliderOf&) = delete;
+  ColliderOf& operator=(const ColliderOf&) = delete;
+  ~ColliderOf();
+
+  /// dSpaceCollide. Call `collide` in the callback, or dCollide.
+  void space_collide(dxSpace* space, void* data, NearCallback* callback);
+  /// dSpaceCollide2.
+  void space_collide2(dxGeom* o1, dxGeom* o2, void* data, NearCallback* callback);
+  /// dCollide: faster than ODE's for the spheres of the pair at hand.
+  int collide(dxGeom* o1, dxGeom* o2, int flags, ContactGeomOf<Real>* contacts, int skip);
+
+  /// All contacts among the geoms of a space, without a callback: for each pair what dCollide gives
+  /// with `max_contacts` (1 to 65535), pairs in the order of callbacks. Spaces within the space are
+  /// geoms to it. Valid until the next call. Errors: invalid_argument, out_of_memory.
+  Result<std::span<const ContactGeomOf<Real>>> contacts(dxSpace* space, int max_contacts) noexcept;
+
+  /// After dSweepAndPruneSpaceCreate, before the space is first collided.
+  void sap_created(dxSpace* space, int axis_order);
+  /// Before a space is destroyed, so that another at its address is not taken for it.
+  void destroying(dxSpace* space);
+
+  struct State;
+
+ private:
+  explicit ColliderOf(std::unique_ptr<State> state) noexcept;
+  std::unique_ptr<State> state_;
+};
+
+}  // namespace harpoon::ode

@@ -8,7 +8,8 @@
 
 Counts are of hierarchical synthesis: each module is synthesised once, so that ten SCPUs cost the
 time of one, and nothing is optimised across modules. Cells are synthesised flat. A top's parts are
-tops themselves: they enter it as black boxes and their counts are added. Results are kept under
+tops themselves: they enter it as black boxes and their counts are added. Clock gates stay what they
+are: the vendor's tool puts a clock buffer there. Results are kept under
 build/synth and used again while the sources that they need are the same, so a run that was cut off
 goes on. yosys may take MEMORY_GB; a top that needs more fails by itself, not the machine.
 """
@@ -33,6 +34,7 @@ ROOMS = ("pkg", "generated", "fp", "cells", "scpu", "spl2", "puc", "afu")
 YOSYS_JS = "@yowasp/yosys@0.55.944"
 TIMING_TITLE = "## Timing of the cells"
 MEMORY_GB = 9
+CLOCK_GATE = "clock_gate"  # a clock buffer with enable, for which yosys has no cell
 
 
 @dataclasses.dataclass(frozen=True)
@@ -108,13 +110,15 @@ class Family:
 FAMILIES = [
     Family("xc7", "synth_xilinx -family xc7", "-flatten", "", {
         "LUT": r"LUT[1-6]", "SRL": r"SRL(16|C32)E?", "FF": r"FD[RSCP]E(_1)?", "CARRY4": r"CARRY4",
-        "DSP48": r"DSP48E1", "RAMB18": r"RAMB18E1", "RAMB36": r"RAMB36E1", "LUT RAM": r"RAM\d+.*"}),
+        "DSP48": r"DSP48E1", "RAMB18": r"RAMB18E1", "RAMB36": r"RAMB36E1", "LUT RAM": r"RAM\d+.*",
+        "gated clocks": CLOCK_GATE}),
     Family("ecp5", "synth_ecp5", "", "-noflatten", {
         "LUT4": r"LUT4", "FF": r"TRELLIS_FF", "CCU2C": r"CCU2C", "MULT18": r"MULT18X18D",
-        "DP16KD": r"DP16KD", "LUT RAM": r"TRELLIS_DPR16X4"}),
+        "DP16KD": r"DP16KD", "LUT RAM": r"TRELLIS_DPR16X4", "gated clocks": CLOCK_GATE}),
     Family("cyclonev", "synth_intel_alm -family cyclonev", "", "-noflatten", {
         "ALUT": r"MISTRAL_ALUT(\d|_ARITH)", "FF": r"MISTRAL_FF", "DSP": r"MISTRAL_MUL.*",
-        "M10K": r"MISTRAL_M10K", "MLAB": r"MISTRAL_MLAB"}),
+        "M10K": r"MISTRAL_M10K", "MLAB": r"MISTRAL_MLAB",
+        "gated clocks": CLOCK_GATE}),
 ]
 
 
@@ -222,9 +226,11 @@ def synthesise(top: Top, family: Family) -> dict[str, int]:
     report = WORK / f"{name}.stat"
     option = family.flatten if top.cell else family.hierarchical
     script = read_commands(top, [str(file) for file in sources()])
-    boxes = " ".join(f"*{part.top.module}*" if part.top.parameters else part.top.module
-                     for part in top.parts)
-    script += f"blackbox {boxes}\n" if boxes else ""
+    boxes = [f"*{part.top.module}*" if part.top.parameters else part.top.module
+             for part in top.parts]
+    if CLOCK_GATE in needs(top.module):
+        boxes.append(CLOCK_GATE)
+    script += f"blackbox {' '.join(boxes)}\n" if boxes else ""
     script += f"{family.command} {option} -top {top.module}\ntee -q -o {report} stat\n"
     if not kept(name, script):
         yosys(script, name)

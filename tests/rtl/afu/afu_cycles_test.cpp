@@ -9,6 +9,7 @@ namespace {
 struct Measured {
   std::uint64_t cycles;
   afu::AfuReport report;
+  std::uint32_t most_reads = 0;  // lines in flight at once
 };
 
 Measured run_pairs(const char* link, const std::vector<SpherePair>& pairs,
@@ -19,7 +20,8 @@ Measured run_pairs(const char* link, const std::vector<SpherePair>& pairs,
   EXPECT_TRUE(outcome.ok());
   EXPECT_EQ(first_wrong(pairs, contacts), -1);
   EXPECT_EQ(rig.link->model().breach(), "");
-  return {rig.device->last_run().total_cycles, rig.device->last_run()};
+  return {rig.device->last_run().total_cycles, rig.device->last_run(),
+          rig.link->model().counters().most_reads};
 }
 
 double per_pair(const Measured& run, std::size_t pairs) {
@@ -36,6 +38,7 @@ TEST(AfuCycles, DirectNinetyThousandRealCollisions) {
   const Measured run = run_pairs("harp", pairs_with_hits(1, 90000, 1));
   EXPECT_LE(per_pair(run, 90000), 1.63);
   EXPECT_GT(run.report.link_occupancy, 0.99);
+  EXPECT_EQ(run.most_reads, 64u);
   EXPECT_EQ(run.cycles, 144519u);
 }
 
@@ -68,12 +71,15 @@ TEST(AfuCycles, PublishedBehaviour) {
   options.puc = {4, true};
   const Measured run = run_pairs("harp", pairs_with_hits(4, 1000, 1), options);
   EXPECT_EQ(run.cycles, 27046u);
+  EXPECT_EQ(run.most_reads, 4u);
   EXPECT_GT(run.cycles, 10 * run_pairs("harp", pairs_with_hits(4, 1000, 1)).cycles);
 }
 
 TEST(AfuCycles, OtherLinks) {
   EXPECT_EQ(run_pairs("pcie3x16", pairs_with_hits(5, 20000, 1)).cycles, 37402u);
-  EXPECT_EQ(run_pairs("f2", pairs_with_hits(5, 20000, 1)).cycles, 65146u);
+  const Measured f2 = run_pairs("f2", pairs_with_hits(5, 20000, 1));
+  EXPECT_EQ(f2.cycles, 65146u);
+  EXPECT_EQ(f2.most_reads, 32u);
 }
 
 }  // namespace

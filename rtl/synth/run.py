@@ -355,8 +355,8 @@ def write_document(text: str) -> None:
         "# What the RTL costs\n\nWritten by `./dev synth --timing`; do not edit. Cell counts by "
         "yosys 0.23, before place and route.\nPipelines and the AFU are synthesised module by "
         "module, nothing is optimised across modules: the\nrow of ten SCPUs is ten times the row "
-        "of one and what holds them together. The sphere table (16,384\nspheres) is counted as a copy "
-        "for each of its 2 N + 4 read ports; RAM with two ports needs half of\nthem. A gated "
+        "of one and what holds them together. The sphere table (16,384\nspheres) is counted as a "
+        "copy for each of its 2 N + 4 read ports; RAM with two ports needs half of\nthem. A gated "
         "clock is a clock buffer with enable.\n\n" + text.rstrip() + "\n")
 
 

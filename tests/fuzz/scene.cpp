@@ -40,7 +40,7 @@ void run_boxes(fuzz::Bytes& in) {
   const bool raw = in.take<std::uint8_t>() % 2 == 0;
   const bool ordered = in.take<std::uint8_t>() % 2 == 0;
   std::vector<std::array<Real, 6>> boxes;
-  while (in.left() > 0 && boxes.size() < 120) {
+  while (in.left() > 0 && boxes.size() < 300) {
     std::array<Real, 6> box;
     for (Real& v : box) {
       v = raw ? in.take<Real>() : scale * static_cast<Real>(in.take<std::int16_t>()) / 256;

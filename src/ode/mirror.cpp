@@ -7,7 +7,6 @@ namespace {
 
 /// How many geoms ahead memory is asked for.
 constexpr std::size_t kPrefetchDistance = 12;
-constexpr std::size_t kCacheLineBytes = 64;
 /// Of libode's geom objects: what the enumeration and the queries below touch.
 constexpr std::size_t kGeomLines = 3;
 
@@ -80,6 +79,7 @@ void Mirror<Real>::append_for_contacts(const LibodeOf<Real>& ode, dxGeom* geom,
   resize(std::size_t{slot} + 1);
   geoms[slot] = geom;
   spheres[slot] = {};
+  positions_[slot] = reinterpret_cast<const Real*>(geom);
   const int number = ode.geom_get_class(geom);
   traits[slot] = asks(number, tests) ? kHasAabbTest : 0;
   if (number == geom_class::kSphere && read_sphere(ode, geom, slot)) traits[slot] |= kIsSphere;
@@ -106,7 +106,12 @@ void Mirror<Real>::read_geom(const LibodeOf<Real>& ode, dxGeom* geom, int number
   ode.geom_get_aabb(geom, bounds[slot].v);
   std::uint8_t bits = traits_of(bounds[slot]);
   spheres[slot] = {};
-  if (number == geom_class::kSphere && read_sphere(ode, geom, slot)) bits |= kIsSphere;
+  positions_[slot] = reinterpret_cast<const Real*>(geom);
+  if (number == geom_class::kSphere) {
+    if (read_sphere(ode, geom, slot)) bits |= kIsSphere;
+  } else if (number != geom_class::kPlane && !is_space_class(number)) {
+    positions_[slot] = ode.geom_get_position(geom);
+  }
   if (asks(number, tests)) bits |= kHasAabbTest;
   bodies[slot] = ode.geom_get_body(geom);
   category[slot] = ode.geom_get_category_bits(geom);

@@ -13,6 +13,8 @@
 
 namespace harpoon::ode {
 
+inline constexpr std::size_t kCacheLineBytes = 64;
+
 /// Properties of a geom, as bits.
 enum GeomTraits : std::uint8_t {
   kIsSphere = 1,    ///< an entry of `spheres` that libode's own collider would read in the same way
@@ -60,6 +62,15 @@ class Mirror {
              a[5] < b[4]);
   }
 
+  /// Asks the memory for what libode's colliders read of a geom.
+  void prefetch(std::uint32_t i) const {
+    const auto* const geom = reinterpret_cast<const char*>(geoms[i]);
+    __builtin_prefetch(geom);
+    __builtin_prefetch(geom + kCacheLineBytes);
+    __builtin_prefetch(positions_[i]);
+    __builtin_prefetch(reinterpret_cast<const char*>(positions_[i]) + kCacheLineBytes);
+  }
+
   // One element per geom.
   std::vector<dxGeom*> geoms;
   std::vector<BoundsBox<Real>> bounds;
@@ -78,7 +89,8 @@ class Mirror {
   bool read_sphere(const LibodeOf<Real>& ode, dxGeom* geom, std::uint32_t slot);
   void read_all(const LibodeOf<Real>& ode, dxSpace* space, int count, const UserTests& tests);
 
-  std::vector<const Real*> positions_;  ///< where positions were last time: hints for prefetching
+  std::vector<const Real*>
+      positions_;  ///< where poses are, as far as is known: hints for prefetching
   std::uint32_t filled_ = 0;
 };
 

@@ -3,6 +3,12 @@
 #include <algorithm>
 
 namespace harpoon::ode {
+namespace {
+
+/// How many pairs ahead memory is asked for.
+constexpr std::size_t kPrefetchDistance = 6;
+
+}  // namespace
 
 void note_pair(void* data, dxGeom* o1, dxGeom* o2) {
   static_cast<std::vector<GeomPair>*>(data)->push_back({o1, o2});
@@ -75,7 +81,12 @@ void Replayer<Real>::replay(Frame<Real>& frame, SpaceRecord<Real>& record, LiveC
   dxGeom* const* const geoms = record.mirror.geoms.data();
   const IndexPair* const pairs = record.pairs.data();
   const std::size_t count = record.pairs.size();
+  // Where contacts come from libode its next geoms can be on their way meanwhile.
+  const bool fetches = !record.mirror.only_spheres;
   for (std::size_t k = 0; k < count; ++k) {
+    if (fetches && k + kPrefetchDistance < count) {
+      record.mirror.prefetch(pairs[k + kPrefetchDistance].g2);
+    }
     const GeomPair pair{geoms[pairs[k].g1], geoms[pairs[k].g2]};
     bool due = true;
     if (frame.disturbed) [[unlikely]] {

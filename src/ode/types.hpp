@@ -16,6 +16,7 @@ inline constexpr int kSphere = 0;
 inline constexpr int kBox = 1;
 inline constexpr int kCapsule = 2;
 inline constexpr int kCylinder = 3;
+inline constexpr int kPlane = 4;
 inline constexpr int kSimpleSpace = 10;
 inline constexpr int kHashSpace = 11;
 inline constexpr int kSapSpace = 12;

@@ -24,7 +24,7 @@ constexpr double kFarRadii = sizeof(Cull) == sizeof(float) ? 0x1p12 : 0x1p27;
 /// More boxes than this beyond the range of float: cull in double.
 constexpr std::size_t kMaxBeyondFloat = 16;
 /// Boxes whose corners make the middle of the world.
-constexpr std::size_t kSamples = 63;
+constexpr std::size_t kSamples = 31;
 /// Largest loss of a coordinate in float, as a part of the radius, that culling puts up with.
 constexpr double kMaxRelativeLoss = 0.02;
 /// Below this many boxes a pass is not shared between threads.
@@ -200,6 +200,11 @@ class BoxSorter {
   /// Boxes further than that from the middle of the world, unless they are many.
   void scan_far(double distance) {
     const Census& census = survey_.census;
+    double extent = 0;
+    for (int axis = 0; axis < 3; ++axis) {
+      extent = std::max(extent, census.max[axis] - census.min[axis]);
+    }
+    if (extent <= distance) return;
     const SphereOf<Cull>* const c = corners();
     const auto middle = middle_of(source_.count, [&](std::size_t i, std::size_t axis) {
       const Cull at[3] = {c[i].x, c[i].y, c[i].z};
@@ -211,11 +216,6 @@ class BoxSorter {
       };
       return beyond(s.x, 0) || beyond(s.y, 1) || beyond(s.z, 2);
     };
-    double extent = 0;
-    for (int axis = 0; axis < 3; ++axis) {
-      extent = std::max(extent, census.max[axis] - census.min[axis]);
-    }
-    if (extent <= distance) return;
     const auto is_far = [&](const SphereOf<Cull>& s) { return s.r >= 0 && far(s); };
     const auto count = std::count_if(c, c + source_.count, is_far);
     if (count <= static_cast<std::ptrdiff_t>(kFew)) scan_if(far);

@@ -100,6 +100,7 @@ void add_all_commands(CLI::App& root, Context& context) {
   add_detect(root, context);
   add_afu(root, context);
   add_run(root, context);
+  add_replay(root, context);
   add_devices(root, context);
   add_selftest(root, context);
   add_completion(root, context);

@@ -29,6 +29,7 @@ void add_diamond(CLI::App& root, Context& context);
 void add_detect(CLI::App& root, Context& context);
 void add_afu(CLI::App& root, Context& context);
 void add_run(CLI::App& root, Context& context);
+void add_replay(CLI::App& root, Context& context);
 void add_devices(CLI::App& root, Context& context);
 void add_selftest(CLI::App& root, Context& context);
 void add_completion(CLI::App& root, Context& context);

@@ -32,6 +32,9 @@ void add_bench_pairs(CLI::App& bench, Context& context) {
 void add_bench_ode(CLI::App& bench, Context& context) {
   add_refusal(bench, context, "ode");
 }
+void add_replay(CLI::App& root, Context& context) {
+  add_refusal(root, context, "replay");
+}
 void add_diamond(CLI::App& root, Context& context) {
   add_refusal(root, context, "diamond");
 }

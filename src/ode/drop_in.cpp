@@ -1,9 +1,11 @@
 #include "ode/drop_in.hpp"
 
 #include <fmt/format.h>
+#include <unistd.h>
 
 #include <atomic>
 #include <cstdlib>
+#include <fstream>
 #include <string_view>
 #include <utility>
 
@@ -45,8 +47,17 @@ std::unique_ptr<Device> open_contact_device(const Options& options) {
   return std::make_unique<FallbackDevice>(std::move(*wanted), std::move(*cpu), &write_log_line);
 }
 
-[[noreturn]] void stop(const std::string& difference) {
+/// Ends the process; the frame goes to a file in the current folder.
+[[noreturn]] void stop(const std::string& difference, const CollisionFrame* frame) {
   write_log_line(LogLevel::error, fmt::format("HARPOON_VERIFY: {}", difference));
+  if (frame != nullptr) {
+    const std::string name = fmt::format("harpoon-difference-{}.txt", ::getpid());
+    std::ofstream file(name);
+    file << to_text(*frame);
+    file.close();
+    write_log_line(LogLevel::info, file ? fmt::format("`harpoon replay {}` repeats it", name)
+                                        : fmt::format("{} could not be written", name));
+  }
   std::abort();
 }
 

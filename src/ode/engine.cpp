@@ -305,7 +305,13 @@ void EngineOf<Real>::verify_pairs(const Record& record) {
   Statistics::add(statistics_.verified_pairs, stock.size());
   if (const auto difference = compare_pairs<Real>(ode_, record, ours, stock);
       difference && parts_.differs) {
-    parts_.differs(*difference);
+    if (record.kind == geom_class::kQuadtreeSpace || !record.mirror_valid) {
+      parts_.differs(*difference, nullptr);
+      return;
+    }
+    CollisionFrame frame = frame_of<Real>(ode_, record, options_.policy, stock);
+    frame.difference = *difference;
+    parts_.differs(*difference, &frame);
   }
 }
 
@@ -564,7 +570,7 @@ int EngineOf<Real>::collide(dxGeom* o1, dxGeom* o2, int flags, void* contact, in
         const int stock_count = ode_.collide(o1, o2, flags, &stock, sizeof stock);
         const auto difference = compare_contacts<Real>(
             ode_, {o1, o2}, count == 1 ? contacts : nullptr, stock_count == 1 ? &stock : nullptr);
-        if (difference && parts_.differs) parts_.differs(*difference);
+        if (difference && parts_.differs) parts_.differs(*difference, nullptr);
       }
       return count;
     }
@@ -624,9 +630,13 @@ template <class Real>
 void EngineOf<Real>::destroying(dxGeom* geom) {
   if (geom == nullptr) return;
   for (Frame<Real>* frame = Frame<Real>::current(); frame != nullptr; frame = frame->outer) {
+    const bool is_space = as_geom(frame->space) == geom;
+    // All geoms of a record's pairs are in its space; those of dSpaceCollide2 may be anywhere.
+    if (frame->record != nullptr && !is_space && ode_.geom_get_space(geom) != frame->space)
+      continue;
     frame->disturbed = true;
     frame->gone.push_back(geom);
-    if (as_geom(frame->space) == geom) {
+    if (is_space) {
       frame->stopped = true;
       frame->record = nullptr;
     }

@@ -12,6 +12,7 @@
 #include <string>
 
 #include "harpoon/device.hpp"
+#include "ode/frame_file.hpp"
 #include "ode/libode.hpp"
 #include "ode/options.hpp"
 #include "ode/statistics.hpp"
@@ -57,8 +58,9 @@ struct EngineParts {
   Options options;
   std::unique_ptr<Device> device;  ///< for contacts; not null
   LogCallback log;                 ///< may be empty
-  /// Under `Options::verify`: called with the first difference; should not return.
-  std::function<void(const std::string& difference)> differs;
+  /// Under `Options::verify`: called with the first difference; should not return. The frame is
+  /// that of the callback sequence, null for a contact or a quadtree.
+  std::function<void(const std::string& difference, const CollisionFrame* frame)> differs;
 };
 
 /// Errors: out_of_memory.

@@ -26,6 +26,7 @@ class SapOrder {
   /// `axis_order` is that of dSweepAndPruneSpaceCreate.
   explicit SapOrder(int axis_order);
 
+  [[nodiscard]] int axis_order() const { return axes_[0] | axes_[1] << 2 | axes_[2] << 4; }
   /// Whether the axes are three different ones: others are left to libode.
   [[nodiscard]] bool usable() const;
 

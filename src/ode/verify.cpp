@@ -4,6 +4,7 @@
 
 #include <algorithm>
 #include <cstring>
+#include <unordered_map>
 
 namespace harpoon::ode {
 namespace {
@@ -61,6 +62,42 @@ std::optional<std::string> compare_pairs(const LibodeOf<Real>& ode, const SpaceR
 }
 
 template <class Real>
+CollisionFrame frame_of(const LibodeOf<Real>& ode, const SpaceRecord<Real>& record, Policy policy,
+                        std::span<const GeomPair> stock) {
+  const Mirror<Real>& mirror = record.mirror;
+  CollisionFrame frame;
+  frame.single_precision = sizeof(Real) == sizeof(float);
+  frame.policy = policy;
+  frame.kind = record.kind;
+  if (record.kind == geom_class::kHashSpace) {
+    ode.hash_space_get_levels(record.space, &frame.min_level, &frame.max_level);
+  }
+  if (record.sap) frame.axis_order = record.sap->axis_order();
+  std::unordered_map<const dxBody*, std::uint32_t> bodies = {{nullptr, 0}};
+  std::unordered_map<const dxGeom*, std::uint32_t> geoms;
+  for (std::uint32_t i = 0; i < mirror.size(); ++i) {
+    geoms.emplace(mirror.geoms[i], i);
+    const auto body = static_cast<std::uint32_t>(bodies.size());
+    FrameGeom geom;
+    geom.class_number = ode.geom_get_class(mirror.geoms[i]);
+    geom.body = bodies.try_emplace(mirror.bodies[i], body).first->second;
+    geom.category = mirror.category[i];
+    geom.collide = mirror.collide[i];
+    std::copy_n(mirror.bounds[i].v, 6, geom.bounds);
+    frame.geoms.push_back(geom);
+  }
+  frame.ours = record.pairs;
+  for (const auto& [o1, o2] : stock) {
+    const auto first = geoms.find(o1), second = geoms.find(o2);
+    // A geom that the mirror does not have cannot be named: the rest of stock's pairs tell enough.
+    if (first != geoms.end() && second != geoms.end()) {
+      frame.stock.push_back({first->second, second->second});
+    }
+  }
+  return frame;
+}
+
+template <class Real>
 std::optional<std::string> compare_contacts(const LibodeOf<Real>& ode, GeomPair pair,
                                             const ContactGeomOf<Real>* ours,
                                             const ContactGeomOf<Real>* stock) {
@@ -86,6 +123,10 @@ template std::optional<std::string> compare_pairs(const LibodeOf<double>&,
                                                   const SpaceRecord<double>&,
                                                   std::span<const GeomPair>,
                                                   std::span<const GeomPair>);
+template CollisionFrame frame_of(const LibodeOf<float>&, const SpaceRecord<float>&, Policy,
+                                 std::span<const GeomPair>);
+template CollisionFrame frame_of(const LibodeOf<double>&, const SpaceRecord<double>&, Policy,
+                                 std::span<const GeomPair>);
 template std::optional<std::string> compare_contacts(const LibodeOf<float>&, GeomPair,
                                                      const ContactGeomOf<float>*,
                                                      const ContactGeomOf<float>*);

@@ -7,6 +7,7 @@
 #include <span>
 #include <string>
 
+#include "ode/frame_file.hpp"
 #include "ode/space_record.hpp"
 
 namespace harpoon::ode {
@@ -17,6 +18,11 @@ template <class Real>
                                                        const SpaceRecord<Real>& record,
                                                        std::span<const GeomPair> ours,
                                                        std::span<const GeomPair> stock);
+
+/// The frame of such a difference, for a file.
+template <class Real>
+[[nodiscard]] CollisionFrame frame_of(const LibodeOf<Real>& ode, const SpaceRecord<Real>& record,
+                                      Policy policy, std::span<const GeomPair> stock);
 
 /// The same for the contact of a pair; both null or set.
 template <class Real>

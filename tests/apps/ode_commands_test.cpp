@@ -6,6 +6,7 @@
 #include "apps/process.hpp"
 #include "apps/scratch_folder.hpp"
 #include "bench/json.hpp"
+#include "ode/frame_file.hpp"
 
 namespace harpoon::app {
 namespace {
@@ -73,6 +74,43 @@ TEST(RunCommand, ADeviceThatIsNotThereIsNamedAndCpuServes) {
                                 "--steps", "2", "--out", (folder / "out").string()});
   EXPECT_EQ(g.exit_code, 0) << g.err;
   EXPECT_TRUE(contains(g.err, "abacus")) << g.err;
+}
+
+/// Two boxes that a stock hash space does not find.
+std::string missed_pair(ode::Policy policy) {
+  ode::CollisionFrame frame;
+  frame.policy = policy;
+  frame.kind = 11;
+  frame.min_level = -3;
+  frame.max_level = 10;
+  frame.difference = "written by a test";
+  const std::uint64_t all = ~std::uint64_t{0};
+  frame.geoms = {{1, 0, all, all, {0.05, 0.85, 0.05, 0.85, -0.35, 0.45}},
+                 {1, 0, all, all, {0.05, 0.85, 0.05, 0.85, 0.05, 0.85}}};
+  if (policy == ode::Policy::fixed) frame.ours = {{0, 1}};
+  return ode::to_text(frame);
+}
+
+TEST(ReplayCommand, RepeatsADifference) {
+  const ScratchFolder folder;
+  write_file(folder / "fixed.txt", missed_pair(ode::Policy::fixed));
+  const Finished differs = run_piped({"replay", (folder / "fixed.txt").string()});
+  EXPECT_EQ(differs.exit_code, 1);
+  EXPECT_TRUE(contains(differs.out, "stock: 0 pairs, exactly")) << differs.out;
+  EXPECT_TRUE(contains(differs.out, "harpoon: 1 pairs, exactly")) << differs.out;
+  EXPECT_TRUE(contains(differs.err, "geom 0 (x 0.05 to 0.85")) << differs.err;
+  write_file(folder / "compat.txt", missed_pair(ode::Policy::compat));
+  const Finished same = run_piped({"replay", (folder / "compat.txt").string()});
+  EXPECT_EQ(same.exit_code, 0) << same.err;
+  EXPECT_TRUE(contains(same.out, "the same here")) << same.out;
+}
+
+TEST(ReplayCommand, NamesTheLineOfADamagedFile) {
+  const ScratchFolder folder;
+  write_file(folder / "bad.txt", "harpoon-ode-frame 1\nx\nsingle maybe\n");
+  const Finished f = run_piped({"replay", (folder / "bad.txt").string()});
+  EXPECT_NE(f.exit_code, 0);
+  EXPECT_TRUE(contains(f.err, "line 3")) << f.err;
 }
 
 TEST(BenchOde, EveryKindOfWorldAndSpaceIsIdentical) {

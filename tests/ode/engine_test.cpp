@@ -57,7 +57,11 @@ struct Fixture : ::testing::Test {
         {.options = options,
          .device = std::move(*cpu),
          .log = [this](LogLevel, std::string_view line) { lines.emplace_back(line); },
-         .differs = [this](const std::string& text) { differences.push_back(text); }});
+         .differs =
+             [this](const std::string& text, const CollisionFrame* frame) {
+               differences.push_back(text);
+               if (frame != nullptr) frames.push_back(*frame);
+             }});
     EXPECT_TRUE(made.ok());
     return std::move(*made);
   }
@@ -79,6 +83,7 @@ struct Fixture : ::testing::Test {
   }
 
   std::vector<std::string> lines, differences;
+  std::vector<CollisionFrame> frames;
 };
 
 /// Two boxes near the origin that overlap, one of which begins below z = 0 in a cell of a bucket
@@ -240,18 +245,35 @@ TEST_F(Fixture, VerificationNamesTheFirstDifference) {
   Options options;
   options.verify = true;
   Result<std::unique_ptr<Device>> cpu = make_cpu_device({.threads = 1});
-  auto blind = make_engine<double>(linked_libode(), {.options = options,
-                                                     .device = std::move(*cpu),
-                                                     .log = {},
-                                                     .differs = [this](const std::string& text) {
-                                                       differences.push_back(text);
-                                                     }});
+  auto blind = make_engine<double>(
+      linked_libode(), {.options = options,
+                        .device = std::move(*cpu),
+                        .log = {},
+                        .differs = [this](const std::string& text, const CollisionFrame* frame) {
+                          differences.push_back(text);
+                          if (frame != nullptr) frames.push_back(*frame);
+                        }});
   (void)pairs_of(**blind, space);
   EXPECT_TRUE(differences.empty());
   dGeomSetPosition(dSpaceGetGeom(space, 7), -20, 0, 0);
   (void)pairs_of(**blind, space);
   ASSERT_EQ(differences.size(), 1u);
   EXPECT_NE(differences[0].find("hash space"), std::string::npos) << differences[0];
+
+  // What was written down gives the same sequences again.
+  ASSERT_EQ(frames.size(), 1u);
+  const Result<CollisionFrame> back = parse_frame(to_text(frames[0]));
+  ASSERT_TRUE(back.ok()) << back.error().message;
+  EXPECT_EQ(to_text(*back), to_text(frames[0]));
+  EXPECT_EQ(back->difference, differences[0]);
+  const Result<std::vector<IndexPair>> again = search_again(*back);
+  ASSERT_TRUE(again.ok());
+  ASSERT_EQ(again->size(), back->ours.size());
+  EXPECT_NE(back->ours.size(), back->stock.size());
+  for (std::size_t k = 0; k < again->size(); ++k) {
+    EXPECT_EQ((*again)[k].g1, back->ours[k].g1);
+    EXPECT_EQ((*again)[k].g2, back->ours[k].g2);
+  }
   dSpaceDestroy(space);
 }
 

@@ -18,7 +18,7 @@ if(NOT HARPOON_VERILATOR OR NOT HARPOON_MAKE)
 endif()
 set(HARPOON_HAVE_VERILATOR ON CACHE INTERNAL "May harpoon_verilate be called?")
 
-find_program(HARPOON_MODEL_CXX clang++ DOC "Compiler of the Verilated models")
+find_program(HARPOON_MODEL_CXX NAMES clang++ clang++-14 DOC "Compiler of the Verilated models")
 if(NOT HARPOON_MODEL_CXX)
   set(HARPOON_MODEL_CXX ${CMAKE_CXX_COMPILER} CACHE FILEPATH "" FORCE)
 endif()

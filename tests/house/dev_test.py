@@ -73,7 +73,8 @@ class Dev(unittest.TestCase):
     def test_it_installs_what_is_missing_and_says_so(self):
         self.stand_in_packages("g++ cmake ninja-build pkg-config libfmt-dev", "exit 0")
         result = self.dev("build")
-        missing = "libhwy-dev libtbb-dev libcli11-dev nlohmann-json3-dev libode-dev"
+        missing = ("libhwy-dev libtbb-dev libcli11-dev nlohmann-json3-dev libode-dev verilator "
+                   "make")
         self.assertIn(f"installing from Debian's packages (log: build/packages.log): {missing}",
                       result.stdout)
         updates = [call for call in self.calls() if re.search(r"apt-get .*\bupdate\b", call)]

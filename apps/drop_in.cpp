@@ -26,7 +26,7 @@ std::filesystem::path find_drop_in() {
   const std::filesystem::path self = std::filesystem::read_symlink("/proc/self/exe", error);
   const std::filesystem::path here = self.parent_path();
   for (const char* folder : {"../lib", HARPOON_INSTALLED_LIBRARIES}) {
-    const std::filesystem::path file = (here / folder / "libharpoon_ode.so").lexically_normal();
+    std::filesystem::path file = (here / folder / "libharpoon_ode.so").lexically_normal();
     if (std::filesystem::exists(file, error)) return file;
   }
   throw CommandError(ExitCode::environment,

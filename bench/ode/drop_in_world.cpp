@@ -58,7 +58,8 @@ std::vector<Point> lattice_points(std::size_t count, double& extent, Numbers& nu
   constexpr Point kCell[4] = {{0, 0, 0}, {0.5, 0.5, 0}, {0.5, 0, 0.5}, {0, 0.5, 0.5}};
   std::vector<Point> points;
   for (std::size_t cell = 0; points.size() < count; ++cell) {
-    const auto i = static_cast<double>(cell / (cells * cells));
+    const std::size_t layer = cell / (cells * cells);
+    const auto i = static_cast<double>(layer);
     const auto j = static_cast<double>(cell / cells % cells), k = static_cast<double>(cell % cells);
     for (const Point& at : kCell) {
       if (points.size() == count) break;

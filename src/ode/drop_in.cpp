@@ -104,7 +104,7 @@ void write_statistics() {
 }  // namespace
 
 Engine* drop_in() {
-  static Engine* const engine = [] {
+  static Engine* const kEngine = [] {
     Engine* const the_engine = make_drop_in().release();
     made().store(the_engine, std::memory_order_release);
     const char* const statistics = std::getenv("HARPOON_STATS");
@@ -113,7 +113,7 @@ Engine* drop_in() {
     }
     return the_engine;
   }();
-  return engine;
+  return kEngine;
 }
 
 Engine* drop_in_if_made() {

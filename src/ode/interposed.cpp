@@ -66,13 +66,13 @@ Interposed find_all() {
 
 void* find_in_libode(const char* name) {
   if (void* found = dlsym(RTLD_NEXT, name)) return found;
-  static void* const library = open_private_libode();
-  return library == nullptr ? nullptr : dlsym(library, name);
+  static void* const kLibrary = open_private_libode();
+  return kLibrary == nullptr ? nullptr : dlsym(kLibrary, name);
 }
 
 const Interposed& libode() {
-  static const Interposed all = find_all();
-  return all;
+  static const Interposed kAll = find_all();
+  return kAll;
 }
 
 }  // namespace harpoon::ode

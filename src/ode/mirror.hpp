@@ -15,13 +15,15 @@ namespace harpoon::ode {
 
 inline constexpr std::size_t kCacheLineBytes = 64;
 
-/// Properties of a geom, as bits.
-enum GeomTraits : std::uint8_t {
-  kIsSphere = 1,    ///< an entry of `spheres` that libode's own collider would read in the same way
-  kIsNan = 2,       ///< a bound is NaN
-  kIsInverted = 4,  ///< min > max on an axis
-  kHasAabbTest = 8,  ///< a user class that wants to be asked about each pair
-};
+// Properties of a geom, as bits.
+/// An entry of `spheres` that libode's own collider would read in the same way.
+inline constexpr std::uint8_t kIsSphere = 1;
+/// A bound is NaN.
+inline constexpr std::uint8_t kIsNan = 2;
+/// min > max on an axis.
+inline constexpr std::uint8_t kIsInverted = 4;
+/// A user class that wants to be asked about each pair.
+inline constexpr std::uint8_t kHasAabbTest = 8;
 
 template <class Real>
 struct BoundsBox {

@@ -50,8 +50,8 @@ HARPOON_API void dSpaceCollide2(dxGeom* o1, dxGeom* o2, void* data, NearCallback
 }
 
 HARPOON_API int dCollide(dxGeom* o1, dxGeom* o2, int flags, void* contact, int skip) {
-  static int (*const stock)(dxGeom*, dxGeom*, int, void*, int) = libode().collide;
-  if (harpoon::ode::open_frames == 0) return stock(o1, o2, flags, contact, skip);
+  static int (*const kStock)(dxGeom*, dxGeom*, int, void*, int) = libode().collide;
+  if (harpoon::ode::open_frames == 0) return kStock(o1, o2, flags, contact, skip);
   return drop_in_if_made()->collide(o1, o2, flags, contact, skip);
 }
 

@@ -148,7 +148,7 @@ template <class Real>
 std::optional<Error> SapOrder<Real>::search(const Mirror<Real>& mirror,
                                             CandidateFinder<Real>& finder, RowOrder& rows,
                                             std::vector<IndexPair>& out) {
-  const auto low = static_cast<std::size_t>(2 * axes_[0]);
+  const auto low = std::size_t{2} * static_cast<std::size_t>(axes_[0]);
   rounded_.assign(mirror.bounds.begin(), mirror.bounds.end());
   for (std::size_t k = 0; k < bounded_.size(); ++k) {
     rounded_[bounded_[k]].v[low] = static_cast<Real>(lows_[k]);

@@ -133,8 +133,9 @@ SphereOf<Real> some_sphere(Numbers& numbers) {
 }
 
 template <class Real>
-bool same_bits(const Real (&a)[3], const Real* b) {
-  return std::memcmp(a, b, sizeof a) == 0;
+bool same_bits(const Real* a, const Real* b, std::size_t count) {
+  return std::memcmp(static_cast<const void*>(a), static_cast<const void*>(b), count * sizeof *a) ==
+         0;
 }
 
 }  // namespace
@@ -169,8 +170,8 @@ bool spheres_agree(const LibodeOf<Real>& ode, Device& device) {
     agree = (count == 1) == hit;
     if (agree && hit) {
       const BodyContactOf<Real>& ours = contacts[next];
-      agree = same_bits(ours.pos, stock.pos) && same_bits(ours.normal, stock.normal) &&
-              std::memcmp(&ours.depth, &stock.depth, sizeof(Real)) == 0;
+      agree = same_bits(ours.pos, stock.pos, 3) && same_bits(ours.normal, stock.normal, 3) &&
+              same_bits(&ours.depth, &stock.depth, 1);
     }
     next += hit ? 1 : 0;
     for (dxGeom* geom : geoms) ode.geom_destroy(geom);

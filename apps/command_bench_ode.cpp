@@ -1,4 +1,5 @@
-// `harpoon bench ode`: stock ODE and the drop-in on the same worlds.
+// `harpoon bench ode`: stock ODE and the drop-in on the same worlds, collision alone or whole
+// programs.
 
 #include <fmt/format.h>
 
@@ -15,14 +16,18 @@
 #include "apps/options.hpp"
 #include "apps/progress.hpp"
 #include "apps/table.hpp"
+#include "bench/ode/collision_calls.hpp"
 #include "bench/ode/drop_in_bench.hpp"
+#include "bench/ode/program_bench.hpp"
 
 namespace harpoon::app {
 namespace {
 
 struct OdeOptions {
   std::string kind = "packed";
+  std::string program;  ///< whole programs instead of collision alone
   std::size_t geoms = 10000;
+  bool geoms_given = false;
   std::string space = "all";
   double seconds = 2;
   std::uint64_t seed = 1;
@@ -62,13 +67,37 @@ std::string describe(const Terminal& terminal, const bench::DropInOutcome& outco
   return text;
 }
 
-void measure(const Context& context, const OdeOptions& options) {
-  if (!bench::drop_in_is_interposed()) {
-    // Measured as it is used: once more, with the library in front of libode.
-    std::vector<std::string> words = own_words();
-    words[0] = "/proc/self/exe";
-    run_with_drop_in(words, {});
+/// Measured as it is used: once more, with the library in front of libode.
+void require_drop_in() {
+  if (bench::drop_in_is_interposed()) return;
+  std::vector<std::string> words = own_words();
+  words[0] = "/proc/self/exe";
+  run_with_drop_in(words, {});
+}
+
+/// Runs `work` with a progress to report to.
+template <class Work>
+auto with_progress(const Context& context, const Work& work) {
+  auto outcome = [&] {
+    Progress progress(context.terminal);
+    return value_or_throw(work([&](double done) { progress.show(done, "measuring"); }));
+  }();
+  throw_if_interrupted();
+  return outcome;
+}
+
+/// The table goes to standard output unless the JSON does.
+void deliver(const std::string& file, const std::string& table, const std::string& json) {
+  fmt::print(file == "-" ? stderr : stdout, "{}", table);
+  if (file == "-") {
+    fmt::print("{}", json);
+  } else if (!file.empty()) {
+    write_file(file, json);
+    fmt::print("{}\n", file);
   }
+}
+
+void measure(const Context& context, const OdeOptions& options) {
   bench::DropInPlan plan;
   plan.kind = *bench::parse_drop_in_kind(options.kind);
   plan.geoms = options.geoms;
@@ -77,25 +106,11 @@ void measure(const Context& context, const OdeOptions& options) {
   plan.spaces = options.space == "all"
                     ? std::vector<std::string>{"simple", "hash", "sap", "quadtree"}
                     : std::vector<std::string>{options.space};
-  const bool json_on_stdout = options.json == "-";
-  if (!options.json.empty() && !json_on_stdout) require_writable_file(options.json, "--json");
-  const auto outcome = [&] {
-    Progress progress(context.terminal);
-    const auto share = [&](double done) { progress.show(done, "measuring"); };
-    return value_or_throw(bench::run_drop_in(plan, share, is_interrupted));
-  }();
-  throw_if_interrupted();
-  fmt::print(json_on_stdout ? stderr : stdout, "{}", describe(context.terminal, outcome));
-  if (!options.json.empty()) {
-    const std::string json =
-        bench::drop_in_json(plan, outcome, bench::describe_machine(), context.command_line);
-    if (json_on_stdout) {
-      fmt::print("{}", json);
-    } else {
-      write_file(options.json, json);
-      fmt::print("{}\n", options.json);
-    }
-  }
+  const auto outcome = with_progress(context, [&](const std::function<void(double)>& share) {
+    return bench::run_drop_in(plan, share, is_interrupted);
+  });
+  deliver(options.json, describe(context.terminal, outcome),
+          bench::drop_in_json(plan, outcome, bench::describe_machine(), context.command_line));
   for (const bench::DropInRow& row : outcome.rows) {
     if (!row.identical) {
       throw CommandError(ExitCode::failure,
@@ -104,21 +119,101 @@ void measure(const Context& context, const OdeOptions& options) {
   }
 }
 
+std::vector<bench::ProgramKind> programs_of(const OdeOptions& options) {
+  std::vector<bench::ProgramKind> programs;
+  for (std::size_t k = 0; k < bench::kProgramKinds; ++k) {
+    const auto kind = static_cast<bench::ProgramKind>(k);
+    if (options.program == "all" || options.program == to_string(kind)) programs.push_back(kind);
+  }
+  return programs;
+}
+
+std::string describe(const Terminal& terminal, const std::vector<bench::ProgramRow>& rows) {
+  const auto ms = [](const bench::Summary& summary) {
+    return fmt::format("{:.3f}", summary.median);
+  };
+  const auto times = [](double ratio) { return fmt::format("{:.2f}", ratio); };
+  std::vector<std::vector<Cell>> cells;
+  for (const bench::ProgramRow& row : rows) {
+    cells.push_back({std::string(to_string(row.program)), fmt::format("{}", row.geoms),
+                     ms(row.stock_step_ms), ms(row.harpoon_step_ms), ms(row.stock_collision_ms),
+                     ms(row.harpoon_collision_ms), fmt::format("{:.1f} %", row.share() * 100),
+                     times(row.collision_speedup()), times(row.speedup()), times(row.limit()),
+                     row.identical ? "yes" : "NO"});
+  }
+  return format_table(terminal,
+                      {{"program"},
+                       {"geoms", true},
+                       {"step: stock ms", true},
+                       {"harpoon ms", true},
+                       {"collision: stock ms", true},
+                       {"harpoon ms", true},
+                       {"share", true},
+                       {"collision x", true},
+                       {"step x", true},
+                       {"limit x", true},
+                       {"identical"}},
+                      cells);
+}
+
+void measure_programs(const Context& context, const OdeOptions& options) {
+  bench::ProgramPlan plan;
+  plan.programs = programs_of(options);
+  plan.geoms = options.geoms_given ? options.geoms : 0;
+  plan.seconds = options.seconds;
+  plan.seed = options.seed;
+  for (const bench::ProgramKind kind : plan.programs) {
+    if (options.geoms_given && !has_size(kind)) {
+      throw CommandError(ExitCode::usage,
+                         fmt::format("--geoms does not go with {}, whose size is fixed. Leave it "
+                                     "out, or give one of pile, sleeping, planner, clutter.",
+                                     to_string(kind)));
+    }
+  }
+  const auto rows = with_progress(context, [&](const std::function<void(double)>& share) {
+    return bench::run_programs(plan, share, is_interrupted);
+  });
+  deliver(options.json, describe(context.terminal, rows),
+          bench::programs_json(plan, rows, bench::describe_machine(), context.command_line));
+  for (const bench::ProgramRow& row : rows) {
+    if (!row.identical) {
+      throw CommandError(ExitCode::failure, fmt::format("with the drop-in {} runs another way",
+                                                        to_string(row.program)));
+    }
+  }
+}
+
+void run(const Context& context, const OdeOptions& options) {
+  require_drop_in();
+  if (!options.json.empty() && options.json != "-") require_writable_file(options.json, "--json");
+  options.program.empty() ? measure(context, options) : measure_programs(context, options);
+}
+
 }  // namespace
 
 void add_bench_ode(CLI::App& bench, Context& context) {
   CLI::App* ode = bench.add_subcommand("ode", "Stock ODE and the drop-in on the same worlds");
   auto options = std::make_shared<OdeOptions>();
-  add_choice(*ode, "--kind", options->kind, {"packed", "gas", "mixed", "asleep"}, "World")
-      ->capture_default_str();
-  ode->add_option("--geoms", options->geoms, "Geoms")
-      ->check(whole_number(2, 10000000))
-      ->type_name("N")
-      ->capture_default_str();
-  add_choice(*ode, "--space", options->space, {"simple", "hash", "sap", "quadtree", "all"},
-             "Kind of space")
-      ->capture_default_str();
-  ode->add_option("--seconds", options->seconds, "Time to measure each space, at least five steps")
+  CLI::Option* const kind =
+      add_choice(*ode, "--kind", options->kind, {"packed", "gas", "mixed", "asleep"}, "World");
+  kind->capture_default_str();
+  CLI::Option* const geoms =
+      ode->add_option("--geoms", options->geoms,
+                      "Geoms; of a program its bodies or obstacles, by default its own number")
+          ->check(whole_number(2, 10000000))
+          ->type_name("N")
+          ->capture_default_str();
+  CLI::Option* const space =
+      add_choice(*ode, "--space", options->space, {"simple", "hash", "sap", "quadtree", "all"},
+                 "Kind of space");
+  space->capture_default_str();
+  add_choice(*ode, "--program", options->program,
+             {"diamond10", "diamond30", "pile", "sleeping", "planner", "clutter", "all"},
+             "Whole programs instead of collision alone")
+      ->excludes(kind)
+      ->excludes(space);
+  ode->add_option("--seconds", options->seconds,
+                  "Time to measure each space or program, at least five steps")
       ->check(CLI::Range(0.0, 3600.0))
       ->type_name("S")
       ->capture_default_str();
@@ -128,13 +223,23 @@ void add_bench_ode(CLI::App& bench, Context& context) {
   ode->add_option("--json", options->json, "Write the results as JSON; - for standard output")
       ->type_name("FILE");
   ode->footer(
-      "Times are medians of dSpaceCollide with dCollide in the callback, stock and drop-in step\n"
-      "by step in turn on twin worlds, in one process with the library preloaded.\n\n"
+      "Times are medians of a step, stock and drop-in in turn on twin worlds, in one process with\n"
+      "the library preloaded: dSpaceCollide with dCollide in the callback. With --program also of\n"
+      "the whole step, solver included: \"share\" is the part of collision in stock's step, "
+      "\"limit\"\n"
+      "what the step would gain if collision took no time (Amdahl).\n\n"
+      "Programs: diamond10, diamond30: the paper's world. pile: 3,000 bodies dropped into a pen.\n"
+      "sleeping: 10,000 boxes, all asleep but for those that 16 balls hit. planner, clutter: an "
+      "arm\n"
+      "of 42 geoms between 40 plates, or 1,000 boxes, and no solver.\n\n"
       "Examples:\n"
       "  harpoon bench ode --geoms 1000\n"
-      "  harpoon bench ode --kind gas --geoms 100000 --space hash --json ode.json");
-  ode->callback(
-      [&context, options] { context.run = [&context, options] { measure(context, *options); }; });
+      "  harpoon bench ode --kind gas --geoms 100000 --space hash --json ode.json\n"
+      "  harpoon bench ode --program all --seconds 5");
+  ode->callback([&context, options, geoms] {
+    options->geoms_given = geoms->count() > 0;
+    context.run = [&context, options] { run(context, *options); };
+  });
 }
 
 }  // namespace harpoon::app

@@ -7,6 +7,7 @@
 #include <numeric>
 
 #include "bench/algorithm1.hpp"
+#include "bench/ode/collision_calls.hpp"
 
 namespace harpoon::bench {
 namespace {
@@ -75,7 +76,7 @@ DiamondWorld::DiamondWorld(const DiamondParameters& parameters)
     : parameters_(parameters),
       world_(dWorldCreate()),
       space_(dHashSpaceCreate(nullptr)),
-      contacts_(dJointGroupCreate(0)) {
+      joints_(dJointGroupCreate(0)) {
   dWorldSetCFM(world_, kConstraintForceMixing);
   dMass mass;
   dMassSetSphereTotal(&mass, parameters.mass, parameters.radius);
@@ -94,18 +95,35 @@ DiamondWorld::DiamondWorld(const DiamondParameters& parameters)
 }
 
 DiamondWorld::~DiamondWorld() {
-  dJointGroupDestroy(contacts_);
+  dJointGroupDestroy(joints_);
   dSpaceDestroy(space_);
   dWorldDestroy(world_);
 }
 
 void DiamondWorld::step(const Observer& observe) {
   observer_ = &observe;
-  dSpaceCollide(space_, this, &DiamondWorld::near);
+  collide(linked_calls());
   observer_ = nullptr;
+  advance();
+}
+
+std::uint64_t DiamondWorld::collide(const CollisionCalls& calls) {
+  calls_ = &calls;
+  candidates_ = 0;
+  found_.clear();
+  calls.space_collide(space_, this, &DiamondWorld::near);
+  return candidates_;
+}
+
+std::size_t DiamondWorld::contact_count() const {
+  return found_.size();
+}
+
+void DiamondWorld::advance() {
+  join();
   pull_to_centre();
   dWorldQuickStep(world_, parameters_.time_step);
-  dJointGroupEmpty(contacts_);
+  dJointGroupEmpty(joints_);
 }
 
 void DiamondWorld::near(void* self, dxGeom* geom1, dxGeom* geom2) {
@@ -113,22 +131,29 @@ void DiamondWorld::near(void* self, dxGeom* geom1, dxGeom* geom2) {
 }
 
 void DiamondWorld::meet(dxGeom* geom1, dxGeom* geom2) {
-  dContact contact{};
-  const bool hit = dCollide(geom1, geom2, 1, &contact.geom, sizeof(dContact)) != 0;
+  dContactGeom contact;
+  const bool hit = calls_->collide(geom1, geom2, 1, &contact, sizeof contact) != 0;
+  ++candidates_;
+  if (hit) found_.push_back(contact);
+  if (observer_ == nullptr) return;
   const Flow flow =
       hit ? algorithm1(SpherePairF64{sphere_of(geom1), sphere_of(geom2)}).flow() : Flow::fake;
-  const ContactF64 record = to_record(contact.geom, flow);
+  const ContactF64 record = hit ? to_record(contact, flow) : ContactF64{};
   (*observer_)({{index_of(geom1), index_of(geom2)}, geom1, geom2, flow, hit ? &record : nullptr});
-  if (!hit) {
-    return;
-  }
+}
+
+void DiamondWorld::join() {
+  dContact contact{};
   contact.surface.mode = dContactBounce | dContactSoftCFM;
   contact.surface.mu = dInfinity;
   contact.surface.bounce = kBounce;
   contact.surface.bounce_vel = kBounceVelocity;
   contact.surface.soft_cfm = kSoftConstraintForceMixing;
-  dJointID joint = dJointCreateContact(world_, contacts_, &contact);
-  dJointAttach(joint, dGeomGetBody(geom1), dGeomGetBody(geom2));
+  for (const dContactGeom& found : found_) {
+    contact.geom = found;
+    dJointID joint = dJointCreateContact(world_, joints_, &contact);
+    dJointAttach(joint, dGeomGetBody(found.g1), dGeomGetBody(found.g2));
+  }
 }
 
 void DiamondWorld::pull_to_centre() {

@@ -14,7 +14,11 @@
 #include "harpoon/error.hpp"
 #include "harpoon/records.hpp"
 
+struct dContactGeom;
+
 namespace harpoon::bench {
+
+struct CollisionCalls;
 
 /// SI units. The prototype publishes r = 0.1 and the time step; mass and force are ours.
 struct DiamondParameters {
@@ -51,25 +55,37 @@ class DiamondWorld {
   /// Broad phase, contacts (each candidate is shown to `observe`), forces, step.
   void step(const Observer& observe);
 
+  /// The same step in two parts, unobserved. First broad phase and contacts, asked of `calls`;
+  /// returns the number of candidates.
+  std::uint64_t collide(const CollisionCalls& calls);
+  /// Then forces, and the step with a joint for each contact found.
+  void advance();
+  [[nodiscard]] std::size_t contact_count() const;
+
   [[nodiscard]] std::size_t size() const { return bodies_.size(); }
   [[nodiscard]] Point position(std::size_t sphere) const;
   [[nodiscard]] std::vector<Point> positions() const;
+  [[nodiscard]] const std::vector<dxBody*>& bodies() const { return bodies_; }
   [[nodiscard]] const DiamondParameters& parameters() const { return parameters_; }
 
  private:
   explicit DiamondWorld(const DiamondParameters& parameters);
   static void near(void* self, dxGeom* geom1, dxGeom* geom2);
   void meet(dxGeom* geom1, dxGeom* geom2);
+  void join();
   void pull_to_centre();
 
   OdeRuntime runtime_;
   DiamondParameters parameters_;
   dxWorld* world_;
   dxSpace* space_;
-  dxJointGroup* contacts_;
+  dxJointGroup* joints_;
+  std::vector<dContactGeom> found_;     // of this step, in the order of the callbacks
   std::vector<std::uint32_t> indices_;  // geoms point into it
   std::vector<dxBody*> bodies_;
-  const Observer* observer_ = nullptr;
+  const Observer* observer_ = nullptr;  // null where nobody looks
+  const CollisionCalls* calls_ = nullptr;
+  std::uint64_t candidates_ = 0;
 };
 
 }  // namespace harpoon::bench

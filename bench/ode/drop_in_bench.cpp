@@ -1,12 +1,11 @@
 #include "bench/ode/drop_in_bench.hpp"
 
-#include <dlfcn.h>
 #include <fmt/format.h>
-#include <ode/ode.h>
 
 #include <array>
 
 #include "bench/json.hpp"
+#include "bench/ode/collision_calls.hpp"
 #include "bench/ode/drop_in_world.hpp"
 #include "bench/ode/runtime.hpp"
 #include "bench/timer.hpp"
@@ -25,23 +24,9 @@ constexpr unsigned kLeastSteps = 5;
 constexpr unsigned kMostSteps = 2000;
 constexpr unsigned kComparedSteps = 3;
 
-/// libode's own functions, past the drop-in.
-CollisionCalls stock_calls() {
-  // The address of a function that nobody interposes tells which file libode is.
-  Dl_info info{};
-  CollisionCalls calls;
-  if (dladdr(reinterpret_cast<const void*>(&dWorldCreate), &info) == 0) return calls;
-  void* const library = dlopen(info.dli_fname, RTLD_LAZY | RTLD_NOLOAD);
-  if (library == nullptr) return calls;
-  calls.space_collide =
-      reinterpret_cast<decltype(calls.space_collide)>(dlsym(library, "dSpaceCollide"));
-  calls.collide = reinterpret_cast<decltype(calls.collide)>(dlsym(library, "dCollide"));
-  return calls;
-}
-
 struct Sides {
   DropInWorld stock, ours;
-  CollisionCalls stock_calls, our_calls{&dSpaceCollide, &dCollide};
+  CollisionCalls stock_calls, our_calls;
 
   bool same_at(unsigned step) {
     stock.move(step);
@@ -54,7 +39,8 @@ DropInRow measure(const DropInPlan& plan, const std::string& space,
                   const Interrupted& interrupted) {
   Sides sides{{plan.kind, space, plan.geoms, plan.seed},
               {plan.kind, space, plan.geoms, plan.seed},
-              stock_calls()};
+              stock_calls(),
+              linked_calls()};
   DropInRow row;
   row.space = space;
   row.identical = true;
@@ -97,14 +83,6 @@ std::optional<DropInKind> parse_drop_in_kind(std::string_view name) {
 
 std::string_view to_string(DropInKind kind) {
   return kKinds[static_cast<std::size_t>(kind)].first;
-}
-
-bool drop_in_is_interposed() {
-  const CollisionCalls stock = stock_calls();
-  // What this program is linked to, found as the dynamic linker finds it.
-  const void* const seen = dlsym(RTLD_DEFAULT, "dSpaceCollide");
-  return stock.space_collide != nullptr &&
-         seen != reinterpret_cast<const void*>(stock.space_collide);
 }
 
 Result<DropInOutcome> run_drop_in(const DropInPlan& plan, const std::function<void(double)>& share,

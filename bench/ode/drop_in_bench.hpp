@@ -52,10 +52,7 @@ struct DropInOutcome {
   std::vector<std::string> notes;
 };
 
-/// Whether this process has the drop-in in front of libode.
-bool drop_in_is_interposed();
-
-/// Errors: device_unavailable when it has not.
+/// Errors: device_unavailable when the drop-in is not in front of libode.
 Result<DropInOutcome> run_drop_in(const DropInPlan& plan, const std::function<void(double)>& share,
                                   const Interrupted& interrupted);
 

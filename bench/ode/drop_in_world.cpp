@@ -6,6 +6,7 @@
 #include <numbers>
 #include <utility>
 
+#include "bench/ode/numbers.hpp"
 #include "bench/timer.hpp"
 
 namespace harpoon::bench {
@@ -21,23 +22,6 @@ constexpr int kMaxContacts = 8;
 /// 64 x 64 squares of two triangles.
 constexpr int kGroundSquares = 64;
 constexpr int kQuadtreeDepth = 6;
-
-/// SplitMix64 (Steele, Lea, Flood 2014).
-class Numbers {
- public:
-  explicit Numbers(std::uint64_t seed) : state_(seed) {}
-  /// Uniform in [-1, 1).
-  double next() { return static_cast<double>(bits() >> 11) * 0x1p-52 - 1; }
-  std::uint64_t bits() {
-    std::uint64_t z = (state_ += 0x9E3779B97F4A7C15u);
-    z = (z ^ (z >> 30)) * 0xBF58476D1CE4E5B9u;
-    z = (z ^ (z >> 27)) * 0x94D049BB133111EBu;
-    return z ^ (z >> 31);
-  }
-
- private:
-  std::uint64_t state_;
-};
 
 dSpaceID make_space(std::string_view kind, double extent) {
   const dVector3 center = {extent, extent, extent, 0}, extents = {extent, extent, extent, 0};

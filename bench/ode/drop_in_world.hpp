@@ -9,15 +9,10 @@
 #include <string_view>
 #include <vector>
 
+#include "bench/ode/collision_calls.hpp"
 #include "bench/ode/drop_in_bench.hpp"
 
 namespace harpoon::bench {
-
-/// Entry points to measure: stock's or the drop-in's.
-struct CollisionCalls {
-  void (*space_collide)(dSpaceID, void*, dNearCallback*) = nullptr;
-  int (*collide)(dGeomID, dGeomID, int, dContactGeom*, int) = nullptr;
-};
 
 class DropInWorld {
  public:

@@ -133,5 +133,68 @@ TEST(BenchOde, EveryKindOfWorldAndSpaceIsIdentical) {
   }
 }
 
+void expect_sound(const Json& row) {
+  EXPECT_TRUE(row.at("identical"));
+  EXPECT_GE(row.at("samples"), 5);
+  EXPECT_GT(row.at("pairs"), 10.0);
+  const double step = row.at("stock_step_ms"), collision = row.at("stock_collision_ms");
+  const double our_step = row.at("harpoon_step_ms");
+  EXPECT_GT(our_step, row.at("harpoon_collision_ms").get<double>());
+  EXPECT_GT(row.at("harpoon_collision_ms"), 0.0);
+  EXPECT_GT(step, collision);
+  EXPECT_DOUBLE_EQ(row.at("collision_share"), collision / step);
+  EXPECT_DOUBLE_EQ(row.at("speedup"), step / our_step);
+  EXPECT_DOUBLE_EQ(row.at("limit").get<double>() * (1 - collision / step), 1);
+}
+
+TEST(BenchOde, WholeProgramsRunAsWithStock) {
+  struct Case {
+    const char* program;
+    const char* size;
+    int geoms;
+  };
+  // Five planes; sixteen balls and a plane; an arm of 42.
+  const Case cases[] = {{"pile", "300", 305},
+                        {"sleeping", "200", 217},
+                        {"planner", "40", 82},
+                        {"clutter", "1000", 1042}};
+  for (const auto& [program, size, geoms] : cases) {
+    const Finished f = run_piped(
+        {"bench", "ode", "--program", program, "--geoms", size, "--seconds", "0.05", "--json", "-"},
+        {"HARPOON_VERIFY=1"});
+    ASSERT_EQ(f.exit_code, 0) << f.err;
+    EXPECT_TRUE(contains(f.err, "share")) << f.err;
+    const Json results = Json::parse(f.out).at("results");
+    ASSERT_EQ(results.size(), 1U);
+    EXPECT_EQ(results[0].at("program"), program);
+    EXPECT_EQ(results[0].at("geoms"), geoms);
+    EXPECT_GT(results[0].at("contacts"), 0.0) << program;
+    expect_sound(results[0]);
+  }
+}
+
+TEST(BenchOde, AProgramThatRunsAnotherWayIsReported) {
+  const std::vector<std::string> words = {"bench",     "ode", "--program", "diamond10",
+                                          "--seconds", "0",   "--json",    "-"};
+  const Finished exact = run_piped(words);
+  ASSERT_EQ(exact.exit_code, 0) << exact.err;
+  expect_sound(Json::parse(exact.out).at("results").at(0));
+  const Finished other = run_piped(words, {"HARPOON_PRECISION=f32"});
+  EXPECT_EQ(other.exit_code, 1);
+  EXPECT_TRUE(contains(other.err, "with the drop-in diamond10 runs another way")) << other.err;
+  EXPECT_FALSE(Json::parse(other.out).at("results").at(0).at("identical"));
+}
+
+TEST(BenchOde, OptionsThatDoNotGoTogetherAreNamed) {
+  for (const char* option : {"--kind=gas", "--space=hash"}) {
+    const Finished f = run_piped({"bench", "ode", "--program", "pile", option});
+    EXPECT_EQ(f.exit_code, 2);
+    EXPECT_TRUE(contains(f.err, "excludes --program")) << f.err;
+  }
+  const Finished sized = run_piped({"bench", "ode", "--program", "all", "--geoms", "50"});
+  EXPECT_EQ(sized.exit_code, 2);
+  EXPECT_TRUE(contains(sized.err, "--geoms does not go with diamond10")) << sized.err;
+}
+
 }  // namespace
 }  // namespace harpoon::app

@@ -4,7 +4,9 @@
 
 #include <algorithm>
 #include <array>
-#include <cmath>
+#include <utility>
+
+#include "bench/chart.hpp"
 
 namespace harpoon::bench {
 namespace {
@@ -67,39 +69,6 @@ std::vector<WorldKind> kinds_of(const std::vector<ScalingPoint>& points) {
   return kinds;
 }
 
-/// Logarithmic axes on a canvas of fixed size.
-class Axes {
- public:
-  static constexpr double kWidth = 640, kHeight = 360, kLeft = 56, kRight = 130, kTop = 16,
-                          kBottom = 40;
-
-  Axes(double x_low, double x_high, double y_low, double y_high)
-      : x_low_(x_low), x_high_(x_high), y_low_(y_low), y_high_(y_high) {}
-  [[nodiscard]] double x(double value) const {
-    return kLeft + (kWidth - kLeft - kRight) * part(value, x_low_, x_high_);
-  }
-  [[nodiscard]] double y(double value) const {
-    return kHeight - kBottom - (kHeight - kTop - kBottom) * part(value, y_low_, y_high_);
-  }
-
- private:
-  static double part(double value, double low, double high) {
-    return std::log(value / low) / std::log(high / low);
-  }
-  double x_low_, x_high_, y_low_, y_high_;
-};
-
-std::string label(double x, double y, const char* anchor, const std::string& text) {
-  return fmt::format("<text x=\"{:.1f}\" y=\"{:.1f}\" text-anchor=\"{}\">{}</text>\n", x, y, anchor,
-                     text);
-}
-
-std::string grid_line(double x1, double y1, double x2, double y2) {
-  return fmt::format(
-      "<line x1=\"{:.1f}\" y1=\"{:.1f}\" x2=\"{:.1f}\" y2=\"{:.1f}\" stroke=\"#ccc\"/>\n", x1, y1,
-      x2, y2);
-}
-
 }  // namespace
 
 StageBytes stage_floor(std::uint64_t bodies, std::uint64_t contacts, bool f64) {
@@ -139,53 +108,27 @@ std::string scaling_markdown(const std::vector<ScalingPoint>& points, const Mach
 
 std::string scaling_svg(const std::vector<ScalingPoint>& points) {
   if (points.empty()) return "";
+  Chart chart;
+  chart.caption = "bodies; ns a body, detect";
   double most_bodies = 0;
   double most_ns = 0;
   double least_ns = 1e300;
-  for (const ScalingPoint& p : points) {
-    const double ns = ns_per_body(row_of(p, HarpoonMode::detect).ms.median, p);
-    most_bodies = std::max(most_bodies, static_cast<double>(p.plan.bodies));
-    most_ns = std::max(most_ns, ns);
-    least_ns = std::min(least_ns, ns);
-  }
-  const double y_low = std::pow(10.0, std::floor(std::log10(least_ns)));
-  const double y_high = std::pow(10.0, std::ceil(std::log10(most_ns * 1.01)));
-  const Axes axes(1000, std::max(most_bodies, 2000.0), y_low, y_high);
-  std::string svg = fmt::format(
-      "<svg xmlns=\"http://www.w3.org/2000/svg\" viewBox=\"0 0 {0} {1}\" width=\"{0}\" "
-      "height=\"{1}\" font-family=\"sans-serif\" font-size=\"12\">\n<rect width=\"100%\" "
-      "height=\"100%\" fill=\"#fff\"/>\n",
-      Axes::kWidth, Axes::kHeight);
-  for (double n = 1000; n <= most_bodies; n *= 10) {
-    svg += grid_line(axes.x(n), axes.y(y_low), axes.x(n), axes.y(y_high));
-    svg += label(axes.x(n), Axes::kHeight - 22, "middle", fmt::format("10^{:.0f}", std::log10(n)));
-  }
-  for (double decade = y_low; decade <= y_high * 1.01; decade *= 10) {
-    for (const double step : {1.0, 2.0, 5.0}) {
-      const double ns = decade * step;
-      if (ns > y_high * 1.01) break;
-      svg += grid_line(axes.x(1000), axes.y(ns), Axes::kWidth - Axes::kRight, axes.y(ns));
-      svg += label(Axes::kLeft - 6, axes.y(ns) + 4, "end", fmt::format("{:g}", ns));
-    }
-  }
-  svg += label(Axes::kLeft, Axes::kHeight - 6, "start", "bodies; ns a body, detect");
-  constexpr std::array kColours = {"#1b6ca8", "#c8553d", "#588157", "#8e5aa8", "#b08900", "#444"};
-  std::size_t colour = 0;
   for (const WorldKind kind : kinds_of(points)) {
-    const char* const stroke = kColours[colour++ % kColours.size()];
-    std::string places;
-    double end_y = 0;
+    ChartLine line{std::string(to_string(kind)), {}};
     for (const ScalingPoint& p : points) {
       if (p.plan.kind != kind) continue;
-      end_y = axes.y(ns_per_body(row_of(p, HarpoonMode::detect).ms.median, p));
-      places += fmt::format("{:.1f},{:.1f} ", axes.x(static_cast<double>(p.plan.bodies)), end_y);
+      const auto bodies = static_cast<double>(p.plan.bodies);
+      const double ns = ns_per_body(row_of(p, HarpoonMode::detect).ms.median, p);
+      line.points.push_back({bodies, ns});
+      most_bodies = std::max(most_bodies, bodies);
+      most_ns = std::max(most_ns, ns);
+      least_ns = std::min(least_ns, ns);
     }
-    svg += fmt::format("<polyline points=\"{}\" fill=\"none\" stroke=\"{}\" stroke-width=\"2\"/>\n",
-                       places, stroke);
-    svg += label(Axes::kWidth - Axes::kRight + 6, end_y + 4, "start",
-                 fmt::format("<tspan fill=\"{}\">{}</tspan>", stroke, to_string(kind)));
+    chart.lines.push_back(std::move(line));
   }
-  return svg + "</svg>\n";
+  chart.x = {1000, std::max(most_bodies, 2000.0), true};
+  chart.y = decades_around(least_ns, most_ns * 1.01);
+  return to_svg(chart);
 }
 
 }  // namespace harpoon::bench

@@ -68,6 +68,40 @@ TEST(RunCommand, TheDiamondInBinary32IsTheSameOnEveryDevice) {
 #endif
 }
 
+TEST(DiamondCommand, SaysHowFarAnEarlierRunIs) {
+  const ScratchFolder folder;
+  const auto diamond = [&](const char* out, std::vector<std::string> more) {
+    std::vector<std::string> words = {
+        "diamond", "--steps", "40", "--every", "10", "--out", (folder / out).string()};
+    words.insert(words.end(), more.begin(), more.end());
+    return words;
+  };
+  const std::string stock = (folder / "stock").string(), plot = (folder / "plot.svg").string();
+  ASSERT_EQ(run_piped(diamond("stock", {})).exit_code, 0);
+  const Finished same = run_piped(diamond("same", {"--against", stock}));
+  EXPECT_EQ(same.exit_code, 0) << same.err;
+  EXPECT_TRUE(contains(same.out, "bit by bit")) << same.out;
+
+  std::vector<std::string> words = {"run", "--precision", "f32", "--", "/proc/self/exe"};
+  for (const std::string& word : diamond("f32", {"--against", stock, "--plot", plot})) {
+    words.push_back(word);
+  }
+  const Finished other = run_piped(words);
+  EXPECT_EQ(other.exit_code, 0) << other.err;
+  EXPECT_TRUE(contains(other.out, "\n  30 ")) << other.out;
+  EXPECT_FALSE(contains(other.out, "bit by bit")) << other.out;
+  EXPECT_TRUE(contains(read_file(plot), "largest</tspan>"));
+
+  const Finished larger = run_piped(diamond("larger", {"--against", stock, "--hmax", "4"}));
+  EXPECT_EQ(larger.exit_code, 1);
+  EXPECT_TRUE(contains(larger.err, "line 65")) << larger.err;
+  EXPECT_EQ(run_piped(diamond("stock", {"--against", stock})).exit_code, 2);
+  EXPECT_EQ(run_piped(diamond("out", {"--plot", plot})).exit_code, 2);
+  const Finished absent = run_piped(diamond("out", {"--against", "/no/such"}));
+  EXPECT_EQ(absent.exit_code, 3);
+  EXPECT_TRUE(contains(absent.err, "/no/such/positions.csv")) << absent.err;
+}
+
 TEST(RunCommand, ADeviceThatIsNotThereIsNamedAndCpuServes) {
   const ScratchFolder folder;
   const Finished g = run_piped({"run", "--device", "abacus", "--", "/proc/self/exe", "diamond",

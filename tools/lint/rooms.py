@@ -39,6 +39,8 @@ THIRD_PARTY: dict[str, set[str]] = {
     "CLI/": {"apps", "tests"},
     "nlohmann/": {"apps", "bench", "tests"},
     "gtest/": {"tests"},
+    "dart/": {"tests"},
+    "ompl/": {"tests"},
     "rapidcheck": {"tests"},
     "benchmark/": {"bench"},
     "iostream": {"src/hls", "apps", "bench", "examples", "sim", "tests"},

@@ -109,7 +109,9 @@ class EngineOf final : public Engine {
   [[nodiscard]] int min_geoms(int kind) const;
   Record* find_or_make(dxSpace* space, int kind);
   void note_changes(Record& record) const;
-  void refresh_mirror(Record& record);
+  void refresh_mirror(Record& record, bool in_collide);
+  void follow_moved(Record& record, bool in_collide);
+  [[nodiscard]] bool update_pairs(Record& record);
   [[nodiscard]] bool refresh_pairs(Record& record);
   Result<typename PairSearch<Real>::Found> find_pairs(Record& record);
   [[nodiscard]] bool takes_over_sap(Record& record) const;
@@ -190,21 +192,72 @@ SpaceRecord<Real>* EngineOf<Real>::find_or_make(dxSpace* space, int kind) {
   return table_.put(space, std::make_shared<Record>(space, kind));
 }
 
-/// Takes note of what was reported, or of everything where nothing is.
+/// Takes note of what was reported, or of everything where nothing is. Geoms that moved stay in
+/// `record.moved` until the mirror follows them.
 template <class Real>
 void EngineOf<Real>::note_changes(Record& record) const {
   const int count = ode_.space_get_num_geoms(record.space);
   const bool reported = record.changed.exchange(false, std::memory_order_relaxed);
-  record.was_unchanged = !reported && options_.changes_are_reported && count == record.count;
+  const bool widely = record.changed_widely.exchange(false, std::memory_order_relaxed);
+  const bool is_told = options_.changes_are_reported && count == record.count;
+  record.was_unchanged = !reported && is_told;
   if (record.was_unchanged) return;
   record.count = count;
-  record.mirror_valid = record.pairs_valid = record.recorded_valid = false;
+  record.recorded_valid = false;
+  std::sort(record.moved.begin(), record.moved.end());
+  record.moved.erase(std::unique(record.moved.begin(), record.moved.end()), record.moved.end());
+  if (widely || !is_told || !record.mirror_valid || !record.are_few(record.moved.size())) {
+    record.moved.clear();
+    record.mirror_valid = record.pairs_valid = false;
+  }
+}
+
+/// Brings the mirror up to date after a few geoms have moved, and the pairs with it when they are
+/// in use. What cannot be brought up to date is invalid afterwards.
+template <class Real>
+void EngineOf<Real>::follow_moved(Record& record, bool in_collide) {
+  const bool is_sap = record.kind == geom_class::kSapSpace;
+  // A SAP space is sorted once for each dSpaceCollide, as stock sorts it.
+  const bool with_pairs = record.pairs_valid && (is_sap ? in_collide : record.pairs_used);
+  record.mirror_valid = record.pairs_valid = false;
+  record.contacts.reset();
+  const bool follows = is_sap ? record.mirror.clean_and_update_array(
+                                    ode_, record.space, record.moved, user_tests_, record.change)
+                              : record.mirror.update_list(ode_, record.space, record.moved,
+                                                          user_tests_, record.change);
+  record.moved.clear();
+  if (!follows) return;
+  record.mirror_valid = true;
+  record.pairs_valid = with_pairs && update_pairs(record);
+  record.pairs_used = false;
 }
 
 template <class Real>
-void EngineOf<Real>::refresh_mirror(Record& record) {
+bool EngineOf<Real>::update_pairs(Record& record) {
+  PairSearch<Real>& search = *record.search;
+  if (record.kind == geom_class::kSimpleSpace) {
+    return search.update_simple(record.mirror, record.change, record.pairs);
+  }
+  if (record.kind == geom_class::kSapSpace) {
+    return search.update_sap(record.mirror, record.change, *record.sap, record.pairs);
+  }
+  int min_level = 0, max_level = 0;
+  ode_.hash_space_get_levels(record.space, &min_level, &max_level);
+  const bool done = search.update_hash(record.mirror, record.change, min_level, max_level,
+                                       options_.policy, record.found, record.pairs);
+  if (done) Statistics::add(statistics_.missed_by_stock, record.found.missed_by_stock);
+  return done;
+}
+
+template <class Real>
+void EngineOf<Real>::refresh_mirror(Record& record, bool in_collide) {
+  if (record.mirror_valid && !record.moved.empty()) follow_moved(record, in_collide);
   if (record.mirror_valid) return;
   record.contacts.reset();
+  record.moved.clear();
+  record.expect_moves();
+  // A recorded sequence has its own numbers.
+  record.pairs_valid = false;
   if (record.kind == geom_class::kSapSpace) {
     record.mirror.clean_and_read(ode_, record.space, record.count, user_tests_);
   } else {
@@ -259,8 +312,13 @@ Result<typename PairSearch<Real>::Found> EngineOf<Real>::find_pairs(Record& reco
 /// False when the call is libode's after all.
 template <class Real>
 bool EngineOf<Real>::refresh_pairs(Record& record) {
-  if (record.pairs_valid) return true;
-  refresh_mirror(record);
+  Statistics::Counter* found_by = &statistics_.unchanged;
+  if (!record.moved.empty()) found_by = &statistics_.updated;
+  refresh_mirror(record, true);
+  if (record.pairs_valid) {
+    Statistics::add(*found_by, 1);
+    return true;
+  }
   if (asks_unknown_tests(record.mirror)) return false;
   if (record.kind == geom_class::kSapSpace && !takes_over_sap(record)) return false;
   record.contacts.reset();
@@ -282,6 +340,7 @@ bool EngineOf<Real>::refresh_pairs(Record& record) {
     if (options_.policy == Policy::strict) return false;
     name_strays(record);
   }
+  Statistics::add(statistics_.searched, 1);
   Statistics::add(statistics_.missed_by_stock, found->missed_by_stock);
   record.pairs_valid = true;
   return true;
@@ -337,7 +396,6 @@ bool EngineOf<Real>::answer_in_order(Record& record, void* data, NearCallback* c
   if (!entry.entered()) return false;
   if (entry.alone()) {
     note_changes(record);
-    Statistics::add(record.pairs_valid ? statistics_.unchanged : statistics_.searched, 1);
     try {
       if (!refresh_pairs(record)) return false;
     } catch (const std::bad_alloc&) {
@@ -349,6 +407,7 @@ bool EngineOf<Real>::answer_in_order(Record& record, void* data, NearCallback* c
     return false;
   }
   ++record.calls;
+  record.pairs_used = true;
   const LiveCheck live =
       record.kind == geom_class::kSimpleSpace ? LiveCheck::rows : LiveCheck::none;
   replay_record(record, live, data, callback);
@@ -360,6 +419,7 @@ template <class Real>
 void EngineOf<Real>::intern_recorded(Record& record) const {
   Mirror<Real>& mirror = record.mirror;
   mirror.clear();
+  record.mirror_valid = false;
   record.pairs.clear();
   record.contacts.reset();
   std::unordered_map<dxGeom*, std::uint32_t> places;
@@ -447,7 +507,7 @@ std::optional<std::vector<GeomPair>> EngineOf<Real>::scan(dxSpace* scanned, dxGe
   if (!entry.entered()) return std::nullopt;
   if (entry.alone()) {
     note_changes(record);
-    refresh_mirror(record);
+    refresh_mirror(record, false);
   } else if (record.changed.load(std::memory_order_relaxed) || !record.mirror_valid) {
     return std::nullopt;
   }
@@ -583,8 +643,9 @@ template <class Real>
 void EngineOf<Real>::moved(dxGeom* geom) {
   if (table_.empty() || geom == nullptr) return;
   for (dxSpace* space = ode_.geom_get_space(geom); space != nullptr;
-       space = ode_.geom_get_space(as_geom(space))) {
-    if (Record* record = table_.find(space)) record->mark_moved();
+       space = ode_.geom_get_space(geom)) {
+    if (Record* record = table_.find(space)) record->note_moved(geom);
+    geom = as_geom(space);
   }
 }
 
@@ -593,7 +654,7 @@ void EngineOf<Real>::filters_changed(dxGeom* geom) {
   if (table_.empty() || geom == nullptr) return;
   dxSpace* const space = ode_.geom_get_space(geom);
   if (space == nullptr) return;
-  if (Record* record = table_.find(space)) record->mark_moved();
+  if (Record* record = table_.find(space)) record->mark_changed_with_contacts();
 }
 
 template <class Real>
@@ -613,7 +674,7 @@ void EngineOf<Real>::toggled(dxGeom* geom, bool enabled) {
 template <class Real>
 void EngineOf<Real>::added(dxSpace* space) {
   if (table_.empty() || space == nullptr) return;
-  if (Record* record = table_.find(space)) record->mark_moved();
+  if (Record* record = table_.find(space)) record->mark_changed_with_contacts();
 }
 
 template <class Real>
@@ -670,7 +731,7 @@ template <class Real>
 void EngineOf<Real>::collider_overridden(int class1, int class2) {
   if (class1 == geom_class::kSphere && class2 == geom_class::kSphere) {
     spheres_.store(Agreement::no, std::memory_order_relaxed);
-    table_.for_each([](Record& record) { record.mark_moved(); });
+    table_.for_each([](Record& record) { record.mark_changed_with_contacts(); });
   }
 }
 

@@ -97,8 +97,9 @@ void HashOrder<Real>::prepare(const Mirror<Real>& mirror, int min_level, int max
 }
 
 template <class Real>
-typename HashOrder<Real>::Found HashOrder<Real>::key_of(std::uint32_t first, std::uint32_t second,
-                                                        std::uint64_t& key) const {
+typename HashOrder<Real>::Found HashOrder<Real>::small_key_of(std::uint32_t first,
+                                                              std::uint32_t second,
+                                                              std::uint64_t& key) const {
   const Cells& a = cells_[first];
   const Cells& b = cells_[second];
   const int shift = std::min(b.level - a.level, 31);
@@ -150,7 +151,7 @@ std::size_t HashOrder<Real>::append(std::span<const IndexPair> pairs, bool as_st
       continue;
     }
     std::uint64_t key = 0;
-    const Found found = key_of(first, second, key);
+    const Found found = small_key_of(first, second, key);
     if (found == Found::missed) ++missed;
     if (found == Found::yes || (found == Found::missed && !as_stock)) {
       rows.pairs.push_back({key, first, second});
@@ -162,6 +163,33 @@ std::size_t HashOrder<Real>::append(std::span<const IndexPair> pairs, bool as_st
             [](const KeyedPair& a, const KeyedPair& b) { return a.key < b.key; });
   for (const KeyedPair& pair : big_) out.push_back({pair.first, pair.second});
   return missed;
+}
+
+template <class Real>
+bool HashOrder<Real>::update(const Mirror<Real>& mirror, const SlotChange& change, int min_level,
+                             int max_level) {
+  change.apply_to(cells_);
+  for (const std::uint32_t slot : change.fresh) {
+    if (!discretise(mirror.bounds[slot], min_level, max_level, cells_[slot])) return false;
+  }
+  return true;
+}
+
+template <class Real>
+std::uint64_t HashOrder<Real>::row_of(IndexPair oriented) const {
+  // All of small x big comes after the small ones' rows, and big x big after that.
+  const bool first_is_big = cells_[oriented.g1].level == kBig;
+  const bool second_is_big = cells_[oriented.g2].level == kBig;
+  const std::uint64_t part = (first_is_big ? 1u : 0u) + (second_is_big ? 1u : 0u);
+  return part << 32 | oriented.g1;
+}
+
+template <class Real>
+typename HashOrder<Real>::Found HashOrder<Real>::key_of(IndexPair oriented,
+                                                        std::uint64_t& key) const {
+  if (cells_[oriented.g2].level != kBig) return small_key_of(oriented.g1, oriented.g2, key);
+  key = oriented.g2;
+  return Found::yes;
 }
 
 template class HashOrder<float>;

@@ -18,6 +18,7 @@
 #include <vector>
 
 #include "ode/mirror.hpp"
+#include "ode/pair_merge.hpp"
 #include "ode/row_order.hpp"
 
 namespace harpoon::ode {
@@ -39,6 +40,21 @@ class HashOrder {
   std::size_t append(std::span<const IndexPair> pairs, bool as_stock, RowOrder& rows,
                      std::vector<IndexPair>& out);
 
+  /// After `prepare` or another update: follows a change of the mirror. False when there are strays
+  /// now: everything is to be prepared anew. Throws std::bad_alloc; the same.
+  [[nodiscard]] bool update(const Mirror<Real>& mirror, const SlotChange& change, int min_level,
+                            int max_level);
+  /// Turns a pair into o1 and o2.
+  [[nodiscard]] IndexPair oriented(IndexPair pair) const {
+    const std::int32_t level1 = cells_[pair.g1].level, level2 = cells_[pair.g2].level;
+    const bool swap = level1 != level2 ? level2 < level1 : pair.g2 < pair.g1;
+    return swap ? IndexPair{pair.g2, pair.g1} : pair;
+  }
+  enum class Found : std::uint8_t { yes, missed, never };
+  /// Whether a hash space finds an oriented pair, and where it stands in its order: the row first.
+  [[nodiscard]] std::uint64_t row_of(IndexPair oriented) const;
+  Found key_of(IndexPair oriented, std::uint64_t& key) const;
+
  private:
   /// A geom's cells at its own level; `level` is kBig for those compared with all.
   struct Cells {
@@ -49,8 +65,7 @@ class HashOrder {
 
   bool discretise(const BoundsBox<Real>& box, int min_level, int max_level, Cells& cells);
   /// The key of a pair of which neither is big, `first` being the one whose row it is in.
-  enum class Found : std::uint8_t { yes, missed, never };
-  Found key_of(std::uint32_t first, std::uint32_t second, std::uint64_t& key) const;
+  Found small_key_of(std::uint32_t first, std::uint32_t second, std::uint64_t& key) const;
 
   std::vector<Cells> cells_;
   std::vector<std::uint8_t> stray_, skip_;

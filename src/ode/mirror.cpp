@@ -1,5 +1,6 @@
 #include "ode/mirror.hpp"
 
+#include <algorithm>
 #include <cmath>
 
 namespace harpoon::ode {
@@ -41,6 +42,33 @@ std::uint8_t traits_of(const BoundsBox<Real>& box) {
   return traits;
 }
 
+/// Whether libode's walks do not pass the geom over.
+template <class Real>
+bool takes_part(const LibodeOf<Real>& ode, dxGeom* geom) {
+  return ode.geom_is_enabled(geom) != 0 && !is_zero_sized(ode, geom, ode.geom_get_class(geom));
+}
+
+/// A set of a few geoms, asked about many: mostly one bit answers.
+class KnownGeoms {
+ public:
+  /// `geoms` are ascending and outlive this.
+  explicit KnownGeoms(std::span<dxGeom* const> geoms) : geoms_(geoms) {
+    for (const dxGeom* geom : geoms) bits_[place(geom)] = true;
+  }
+  [[nodiscard]] bool has(dxGeom* geom) const {
+    return bits_[place(geom)] && std::binary_search(geoms_.begin(), geoms_.end(), geom);
+  }
+
+ private:
+  static constexpr std::size_t kPlaces = 4096;
+  static std::size_t place(const dxGeom* geom) {
+    const auto bits = reinterpret_cast<std::uintptr_t>(geom);
+    return (bits >> 4 ^ bits >> 11) % kPlaces;
+  }
+  std::span<dxGeom* const> geoms_;
+  bool bits_[kPlaces] = {};
+};
+
 /// Whether the class is one of the user's that asks about each pair.
 bool asks(int number, const UserTests& tests) {
   return number >= geom_class::kFirstUser && tests[number - geom_class::kFirstUser] != nullptr;
@@ -58,6 +86,7 @@ void Mirror<Real>::clear() {
   collide.clear();
   traits.clear();
   positions_.clear();
+  is_packed_ = false;
   all_traits = 0;
   only_spheres = false;
 }
@@ -100,8 +129,7 @@ void Mirror<Real>::resize(std::size_t count) {
 
 template <class Real>
 void Mirror<Real>::read_geom(const LibodeOf<Real>& ode, dxGeom* geom, int number,
-                             const UserTests& tests) {
-  const std::uint32_t slot = filled_++;
+                             const UserTests& tests, std::uint32_t slot) {
   geoms[slot] = geom;
   ode.geom_get_aabb(geom, bounds[slot].v);
   std::uint8_t bits = traits_of(bounds[slot]);
@@ -125,7 +153,8 @@ template <class Real>
 void Mirror<Real>::read_all(const LibodeOf<Real>& ode, dxSpace* space, int count,
                             const UserTests& tests) {
   resize(static_cast<std::size_t>(count));
-  filled_ = 0;
+  is_packed_ = false;
+  std::uint32_t filled = 0;
   all_traits = 0;
   only_spheres = true;
   unsigned long all_category = ~0UL, all_collide = ~0UL;
@@ -143,11 +172,12 @@ void Mirror<Real>::read_all(const LibodeOf<Real>& ode, dxSpace* space, int count
     if (ode.geom_is_enabled(geom) == 0) continue;
     const int number = ode.geom_get_class(geom);
     if (is_zero_sized(ode, geom, number)) continue;
-    read_geom(ode, geom, number, tests);
-    all_category &= category[filled_ - 1];
-    all_collide &= collide[filled_ - 1];
+    read_geom(ode, geom, number, tests, filled);
+    all_category &= category[filled];
+    all_collide &= collide[filled];
+    ++filled;
   }
-  resize(filled_);
+  resize(filled);
   uniform_bits = (all_category & all_collide) != 0;
 }
 
@@ -163,6 +193,101 @@ void Mirror<Real>::clean_and_read(const LibodeOf<Real>& ode, dxSpace* space, int
                                   const UserTests& tests) {
   ode.space_clean(space);
   read_all(ode, space, count, tests);
+}
+
+/// Slots of geoms among `moved`. Ends when all are found, which is soon in a list whose first geoms
+/// move again and again.
+template <class Real>
+void Mirror<Real>::find_vacated(std::span<dxGeom* const> moved, SlotChange& change) const {
+  const KnownGeoms known(moved);
+  change.vacated.clear();
+  for (std::uint32_t slot = 0; slot < size() && change.vacated.size() < moved.size(); ++slot) {
+    if (known.has(geoms[slot])) change.vacated.push_back(slot);
+  }
+}
+
+/// Fills the fresh slots from `arrived_`. False when these are not the geoms that left.
+template <class Real>
+bool Mirror<Real>::read_fresh(const LibodeOf<Real>& ode, const UserTests& tests,
+                              const SlotChange& change) {
+  for (std::size_t k = 0; k < arrived_.size(); ++k) {
+    dxGeom* const geom = arrived_[k];
+    const int number = ode.geom_get_class(geom);
+    read_geom(ode, geom, number, tests, change.fresh[k]);
+  }
+  std::sort(arrived_.begin(), arrived_.end());
+  std::sort(left_.begin(), left_.end());
+  return arrived_ == left_;
+}
+
+template <class Real>
+bool Mirror<Real>::update_list(const LibodeOf<Real>& ode, dxSpace* space,
+                               std::span<dxGeom* const> moved, const UserTests& tests,
+                               SlotChange& change) {
+  if ((all_traits & (kIsNan | kIsInverted)) != 0) return false;
+  arrived_.clear();
+  for (std::size_t k = 0; k < moved.size(); ++k) {
+    dxGeom* const geom = ode.space_get_geom(space, static_cast<int>(k));
+    if (!std::binary_search(moved.begin(), moved.end(), geom)) return false;
+    if (takes_part(ode, geom)) arrived_.push_back(geom);
+  }
+  find_vacated(moved, change);
+  if (change.vacated.size() != arrived_.size()) return false;
+  left_.clear();
+  for (const std::uint32_t slot : change.vacated) left_.push_back(geoms[slot]);
+  change.bring_to_front();
+  change.apply_to(geoms);
+  change.apply_to(bounds);
+  change.apply_to(spheres);
+  change.apply_to(bodies);
+  change.apply_to(category);
+  change.apply_to(collide);
+  change.apply_to(traits);
+  change.apply_to(positions_);
+  const bool complete = read_fresh(ode, tests, change);
+  ode.space_clean(space);
+  if (is_packed_) packed_.repack(bounds, 0, change.new_slots.size());
+  return complete;
+}
+
+template <class Real>
+bool Mirror<Real>::clean_and_update_array(const LibodeOf<Real>& ode, dxSpace* space,
+                                          std::span<dxGeom* const> moved, const UserTests& tests,
+                                          SlotChange& change) {
+  const auto count = static_cast<std::uint32_t>(ode.space_get_num_geoms(space));
+  if (size() != count || (all_traits & (kIsNan | kIsInverted)) != 0) return false;
+  ode.space_clean(space);
+  find_vacated(moved, change);
+  if (change.vacated.size() != moved.size()) return false;
+  // Whatever is written to libode's array is written to a place that one of these had, or to its
+  // end: a geom's place is written over only when it moves, and it has been in no other places.
+  for (std::uint32_t k = 1; k <= moved.size(); ++k) change.vacated.push_back(count - k);
+  std::sort(change.vacated.begin(), change.vacated.end());
+  change.vacated.erase(std::unique(change.vacated.begin(), change.vacated.end()),
+                       change.vacated.end());
+  change.keep_in_place();
+  arrived_.clear();
+  left_.clear();
+  for (const std::uint32_t slot : change.fresh) {
+    dxGeom* const geom = ode.space_get_geom(space, static_cast<int>(slot));
+    if (!takes_part(ode, geom)) return false;
+    arrived_.push_back(geom);
+    left_.push_back(geoms[slot]);
+  }
+  const bool complete = read_fresh(ode, tests, change);
+  if (is_packed_) {
+    for (const std::uint32_t slot : change.fresh) {
+      packed_.repack(bounds, slot, std::size_t{slot} + 1);
+    }
+  }
+  return complete;
+}
+
+template <class Real>
+const PackedBounds<Real>& Mirror<Real>::packed() {
+  if (!is_packed_) packed_.pack(bounds);
+  is_packed_ = true;
+  return packed_;
 }
 
 template class Mirror<float>;

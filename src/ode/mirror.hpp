@@ -1,15 +1,19 @@
 #pragma once
 
 // A packed copy of a space's enabled geoms in the space's own order: what finding and ordering
-// pairs needs, without a walk through libode's objects. It is read anew whenever anything changed;
-// it never changes libode's state beyond what dSpaceClean does.
+// pairs needs, without a walk through libode's objects. It is read anew when anything changed, or
+// brought up to date when a few geoms moved; it never changes libode's state beyond what
+// dSpaceClean does.
 
 #include <cstdint>
 #include <span>
 #include <vector>
 
 #include "harpoon/records.hpp"
+#include "ode/bounds_box.hpp"
 #include "ode/libode.hpp"
+#include "ode/packed_bounds.hpp"
+#include "ode/slot_change.hpp"
 
 namespace harpoon::ode {
 
@@ -25,11 +29,6 @@ inline constexpr std::uint8_t kIsInverted = 4;
 /// A user class that wants to be asked about each pair.
 inline constexpr std::uint8_t kHasAabbTest = 8;
 
-template <class Real>
-struct BoundsBox {
-  Real v[6];  ///< min x, max x, min y, max y, min z, max z
-};
-
 /// Which of the user classes ask (`dGeomClass::aabb_test`); null where one does not.
 using UserTests = AabbTest * [geom_class::kUserClasses];
 
@@ -41,6 +40,19 @@ class Mirror {
   void read(const LibodeOf<Real>& ode, dxSpace* space, int count, const UserTests& tests);
   /// The same for a space that changes the order of its geoms when it is cleaned.
   void clean_and_read(const LibodeOf<Real>& ode, dxSpace* space, int count, const UserTests& tests);
+  /// Brings the mirror of a simple or hash space up to date, of which nothing has changed since it
+  /// was read but the bounds and poses of `moved` (ascending, none twice), and cleans the space.
+  /// libode has put those first in its list. False when that is not what is found there, or when a
+  /// bound was NaN or inverted: the mirror then has no meaning. O(moved + slots before the last of
+  /// them). Throws std::bad_alloc; the same.
+  [[nodiscard]] bool update_list(const LibodeOf<Real>& ode, dxSpace* space,
+                                 std::span<dxGeom* const> moved, const UserTests& tests,
+                                 SlotChange& change);
+  /// The same for a SAP space, all of whose geoms must be enabled. libode puts its last geom in the
+  /// place of one that moves, and the moved ones at the end.
+  [[nodiscard]] bool clean_and_update_array(const LibodeOf<Real>& ode, dxSpace* space,
+                                            std::span<dxGeom* const> moved, const UserTests& tests,
+                                            SlotChange& change);
   void clear();
   /// Adds a geom with what a replay of known pairs needs only: identity, sphere, whether it asks.
   void append_for_contacts(const LibodeOf<Real>& ode, dxGeom* geom, const UserTests& tests);
@@ -63,6 +75,11 @@ class Mirror {
     return !(a[0] > b[1] || a[1] < b[0] || a[2] > b[3] || a[3] < b[2] || a[4] > b[5] ||
              a[5] < b[4]);
   }
+
+  /// All bounds, for comparing one box with them: packed at the first call after a reading.
+  const PackedBounds<Real>& packed();
+  /// Whether `packed` costs nothing.
+  [[nodiscard]] bool is_packed() const { return is_packed_; }
 
   /// Asks the memory for what libode's colliders read of a geom.
   void prefetch(std::uint32_t i) const {
@@ -87,13 +104,20 @@ class Mirror {
 
  private:
   void resize(std::size_t count);
-  void read_geom(const LibodeOf<Real>& ode, dxGeom* geom, int number, const UserTests& tests);
+  void read_geom(const LibodeOf<Real>& ode, dxGeom* geom, int number, const UserTests& tests,
+                 std::uint32_t slot);
   bool read_sphere(const LibodeOf<Real>& ode, dxGeom* geom, std::uint32_t slot);
   void read_all(const LibodeOf<Real>& ode, dxSpace* space, int count, const UserTests& tests);
+  void find_vacated(std::span<dxGeom* const> moved, SlotChange& change) const;
+  [[nodiscard]] bool read_fresh(const LibodeOf<Real>& ode, const UserTests& tests,
+                                const SlotChange& change);
 
   std::vector<const Real*>
-      positions_;  ///< where poses are, as far as is known: hints for prefetching
-  std::uint32_t filled_ = 0;
+      positions_;                 ///< where poses are, as far as is known: hints for prefetching
+  std::vector<dxGeom*> arrived_;  ///< the geoms of the fresh slots of an update
+  std::vector<dxGeom*> left_;     ///< those of the vacated ones
+  PackedBounds<Real> packed_;
+  bool is_packed_ = false;
 };
 
 }  // namespace harpoon::ode

@@ -145,6 +145,29 @@ void SapOrder<Real>::sweep(const Mirror<Real>& mirror, std::vector<IndexPair>& o
 }
 
 template <class Real>
+void SapOrder<Real>::number_geoms(const Mirror<Real>& mirror) {
+  rank_of_geom_.resize(mirror.size());
+  for (std::uint32_t k = 0; k < ranks_.size(); ++k) rank_of_geom_[bounded_[ranks_[k]]] = k;
+}
+
+template <class Real>
+void SapOrder<Real>::append_by_rank(std::span<const IndexPair> pairs, RowOrder& rows,
+                                    std::vector<IndexPair>& out) const {
+  rows.pairs.resize(pairs.size());
+  for (std::size_t k = 0; k < pairs.size(); ++k) {
+    const std::uint32_t rank1 = rank_of_geom_[pairs[k].g1], rank2 = rank_of_geom_[pairs[k].g2];
+    const std::uint32_t later = std::max(rank1, rank2);
+    rows.pairs[k] = {later, std::min(rank1, rank2), later};
+  }
+  const std::size_t begin = out.size();
+  rows.append_to(out, static_cast<std::uint32_t>(ranks_.size()),
+                 [](std::uint32_t rank) { return rank; });
+  for (std::size_t k = begin; k < out.size(); ++k) {
+    out[k] = {bounded_[ranks_[out[k].g1]], bounded_[ranks_[out[k].g2]]};
+  }
+}
+
+template <class Real>
 std::optional<Error> SapOrder<Real>::search(const Mirror<Real>& mirror,
                                             CandidateFinder<Real>& finder, RowOrder& rows,
                                             std::vector<IndexPair>& out) {
@@ -163,21 +186,8 @@ std::optional<Error> SapOrder<Real>::search(const Mirror<Real>& mirror,
   const Result<std::span<const IndexPair>> pairs = finder.find(mirror, rounded_, skip);
   if (!pairs) return pairs.error();
 
-  rank_of_geom_.resize(mirror.size());
-  for (std::uint32_t k = 0; k < ranks_.size(); ++k) rank_of_geom_[bounded_[ranks_[k]]] = k;
-  rows.pairs.resize(pairs->size());
-  for (std::size_t k = 0; k < pairs->size(); ++k) {
-    const std::uint32_t rank1 = rank_of_geom_[(*pairs)[k].g1];
-    const std::uint32_t rank2 = rank_of_geom_[(*pairs)[k].g2];
-    const std::uint32_t later = std::max(rank1, rank2);
-    rows.pairs[k] = {later, std::min(rank1, rank2), later};
-  }
-  const std::size_t begin = out.size();
-  rows.append_to(out, static_cast<std::uint32_t>(ranks_.size()),
-                 [](std::uint32_t rank) { return rank; });
-  for (std::size_t k = begin; k < out.size(); ++k) {
-    out[k] = {bounded_[ranks_[out[k].g1]], bounded_[ranks_[out[k].g2]]};
-  }
+  number_geoms(mirror);
+  append_by_rank(*pairs, rows, out);
   return std::nullopt;
 }
 
@@ -199,6 +209,7 @@ template <class Real>
 std::optional<Error> SapOrder<Real>::append(const Mirror<Real>& mirror,
                                             CandidateFinder<Real>& finder, RowOrder& rows,
                                             std::vector<IndexPair>& out) {
+  const std::size_t begin = out.size();
   split(mirror);
   if (!bounded_.empty()) {
     sort();
@@ -209,8 +220,75 @@ std::optional<Error> SapOrder<Real>::append(const Mirror<Real>& mirror,
       return error;
     }
   }
+  note_sorted(out.size() - begin);
   append_unbounded(mirror, out);
   return std::nullopt;
+}
+
+template <class Real>
+void SapOrder<Real>::note_sorted(std::size_t pairs) {
+  sorted_pairs_ = pairs;
+  sorted_geoms_.resize(ranks_.size());
+  for (std::size_t k = 0; k < ranks_.size(); ++k) sorted_geoms_[k] = bounded_[ranks_[k]];
+}
+
+template <class Real>
+bool SapOrder<Real>::overlap(const Mirror<Real>& mirror, std::uint32_t i, std::uint32_t j) const {
+  constexpr Real kInfinity = std::numeric_limits<Real>::infinity();
+  const Real* const a = mirror.bounds[i].v;
+  const Real* const b = mirror.bounds[j].v;
+  const int low = 2 * axes_[0], high = low + 1;
+  if (a[high] == kInfinity || b[high] == kInfinity) return false;
+  if (static_cast<float>(a[low]) > static_cast<float>(b[high]) ||
+      static_cast<float>(b[low]) > static_cast<float>(a[high])) {
+    return false;
+  }
+  const int low1 = 2 * axes_[1], low2 = 2 * axes_[2];
+  return a[low1] <= b[low1 + 1] && b[low1] <= a[low1 + 1] && a[low2] <= b[low2 + 1] &&
+         b[low2] <= a[low2 + 1];
+}
+
+template <class Real>
+bool SapOrder<Real>::keeps_order(const SlotChange& change) const {
+  const auto is_fresh = [&](std::uint32_t slot) { return change.now(slot) == SlotChange::kGone; };
+  std::size_t old = 0;
+  for (const std::uint32_t rank : ranks_) {
+    const std::uint32_t slot = bounded_[rank];
+    if (is_fresh(slot)) continue;
+    while (old < sorted_geoms_.size() && is_fresh(sorted_geoms_[old])) ++old;
+    if (old == sorted_geoms_.size() || sorted_geoms_[old++] != slot) return false;
+  }
+  return true;
+}
+
+template <class Real>
+void SapOrder<Real>::update(const Mirror<Real>& mirror, const SlotChange& change,
+                            std::span<const IndexPair> fresh, RowOrder& rows,
+                            std::vector<IndexPair>& pairs) {
+  split(mirror);
+  if (!bounded_.empty()) sort();
+  number_geoms(mirror);
+  pairs.resize(sorted_pairs_);
+  keep_unchanged(change, pairs);
+  if (keeps_order(change)) {
+    const auto rank1 = [&](const IndexPair& pair) { return rank_of_geom_[pair.g1]; };
+    const auto rank2 = [&](const IndexPair& pair) { return rank_of_geom_[pair.g2]; };
+    placed_.clear();
+    for (const auto& [i, j] : fresh) {
+      const IndexPair pair =
+          rank_of_geom_[i] < rank_of_geom_[j] ? IndexPair{i, j} : IndexPair{j, i};
+      placed_.push_back({{rank1(pair), rank2(pair)}, pair});
+    }
+    insert_in_order(pairs, placed_, rank1, rank2);
+  } else {
+    // Equal bounds have changed places, as they do where they are negative.
+    both_.assign(pairs.begin(), pairs.end());
+    both_.insert(both_.end(), fresh.begin(), fresh.end());
+    pairs.clear();
+    append_by_rank(both_, rows, pairs);
+  }
+  note_sorted(pairs.size());
+  append_unbounded(mirror, pairs);
 }
 
 template class SapOrder<float>;

@@ -16,6 +16,7 @@
 
 #include "ode/candidates.hpp"
 #include "ode/mirror.hpp"
+#include "ode/pair_merge.hpp"
 #include "ode/row_order.hpp"
 
 namespace harpoon::ode {
@@ -39,6 +40,13 @@ class SapOrder {
                                             CandidateFinder<Real>& finder, RowOrder& rows,
                                             std::vector<IndexPair>& out);
 
+  /// Whether two geoms are sorted ones whose bounds overlap as the space compares them.
+  [[nodiscard]] bool overlap(const Mirror<Real>& mirror, std::uint32_t i, std::uint32_t j) const;
+  /// Does what `append` does where `pairs` are those of the call before and only the geoms of fresh
+  /// slots have changed since. `fresh` are the pairs that these have now. Throws std::bad_alloc.
+  void update(const Mirror<Real>& mirror, const SlotChange& change,
+              std::span<const IndexPair> fresh, RowOrder& rows, std::vector<IndexPair>& pairs);
+
  private:
   /// Splits the mirror into geoms bounded and unbounded on the first axis.
   void split(const Mirror<Real>& mirror);
@@ -50,6 +58,15 @@ class SapOrder {
   [[nodiscard]] std::optional<Error> search(const Mirror<Real>& mirror,
                                             CandidateFinder<Real>& finder, RowOrder& rows,
                                             std::vector<IndexPair>& out);
+  /// Takes note of the order of sorted geoms and how many pairs there are of them.
+  void note_sorted(std::size_t pairs);
+  /// Notes which geom has which rank.
+  void number_geoms(const Mirror<Real>& mirror);
+  /// Appends pairs of sorted geoms, in any order and orientation, in the space's order.
+  void append_by_rank(std::span<const IndexPair> pairs, RowOrder& rows,
+                      std::vector<IndexPair>& out) const;
+  /// Whether geoms that stayed as they were follow each other as in `sorted_geoms_`.
+  [[nodiscard]] bool keeps_order(const SlotChange& change) const;
   void append_unbounded(const Mirror<Real>& mirror, std::vector<IndexPair>& out) const;
 
   /// What the sweep reads of a geom.
@@ -67,7 +84,11 @@ class SapOrder {
   std::vector<std::uint64_t> keys_, keys_scratch_;
   std::vector<BoundsBox<Real>> rounded_;
   std::vector<std::uint8_t> skip_;
-  std::vector<std::uint32_t> rank_of_geom_;
+  std::vector<std::uint32_t> rank_of_geom_;  ///< of sorted ones
+  std::vector<std::uint32_t> sorted_geoms_;  ///< by rank, of the last call
+  std::size_t sorted_pairs_ = 0;             ///< the first of the last call's pairs
+  std::vector<IndexPair> both_;
+  std::vector<PlacedPair> placed_;
 };
 
 }  // namespace harpoon::ode

@@ -3,6 +3,7 @@
 // What the drop-in remembers of one space: its mirror, its pairs in order, and whether they still
 // hold. It decides nothing; the engine does.
 
+#include <algorithm>
 #include <atomic>
 #include <cstdint>
 #include <memory>
@@ -31,6 +32,11 @@ struct SpaceRecord {
 
   /// Anything that the pairs depend on has changed since they were found.
   std::atomic<bool> changed{true};
+  /// More than the bounds and poses of `moved`.
+  std::atomic<bool> changed_widely{true};
+  /// Geoms that have moved since the mirror was read, some of them more than once. Of the thread
+  /// that works on the space.
+  std::vector<dxGeom*> moved;
   /// Grows whenever contacts of the space's geoms may have changed.
   std::atomic<std::uint64_t> version{0};
   /// The thread that is in a call on this space, by a token of its own; null: none.
@@ -39,10 +45,13 @@ struct SpaceRecord {
 
   bool mirror_valid = false;
   bool pairs_valid = false;
-  int count = -1;              ///< of all its geoms when it was last looked at
+  bool pairs_used =
+      false;       ///< a call has asked for them since they were found or brought up to date
+  int count = -1;  ///< of all its geoms when it was last looked at
   bool was_unchanged = false;  ///< nothing had changed between the last two looks
   std::uint64_t calls = 0;     ///< dSpaceCollide calls so far
   Mirror<Real> mirror;
+  SlotChange change;             ///< of the mirror's last update
   std::vector<IndexPair> pairs;  ///< of the mirror, in the order of callbacks
   SphereContacts<Real> contacts;
   std::unique_ptr<PairSearch<Real>> search;
@@ -54,11 +63,45 @@ struct SpaceRecord {
   std::vector<GeomPair> recorded;     ///< libode's own sequence
   bool recorded_valid = false;
 
-  void mark_moved() {
-    version.store(version.load(std::memory_order_relaxed) + 1, std::memory_order_relaxed);
+  /// The bounds and pose of one geom have changed. Allocates nothing: what `expect_moves` has made
+  /// room for is remembered.
+  void note_moved(dxGeom* geom) {
+    count_version();
+    changed.store(true, std::memory_order_relaxed);
+    if (changed_widely.load(std::memory_order_relaxed)) return;
+    if (!moved.empty() && moved.back() == geom) return;
+    if (moved.size() == moved.capacity()) return mark_changed();
+    moved.push_back(geom);
+  }
+  /// Makes room for so many calls of `note_moved` as are worth it. Throws std::bad_alloc.
+  void expect_moves() {
+    moved.reserve(std::min(kMostMarks, static_cast<std::size_t>(std::max(count, 0))));
+  }
+  /// Whether an update for so many different geoms is faster than to read and search anew. In a SAP
+  /// space each of them takes a second one to another place. By measurement.
+  [[nodiscard]] bool are_few(std::size_t geoms) const {
+    const bool is_sap = kind == geom_class::kSapSpace;
+    const auto all = static_cast<std::size_t>(count);
+    return geoms <= (is_sap ? std::min<std::size_t>(128, 1 + all / 32)
+                            : std::min<std::size_t>(256, 1 + all / 8));
+  }
+
+  /// Contacts may have changed, and anything else.
+  void mark_changed_with_contacts() {
+    count_version();
+    mark_changed();
+  }
+  void mark_changed() {
+    changed_widely.store(true, std::memory_order_relaxed);
     changed.store(true, std::memory_order_relaxed);
   }
-  void mark_changed() { changed.store(true, std::memory_order_relaxed); }
+
+ private:
+  static constexpr std::size_t kMostMarks = 1024;
+
+  void count_version() {
+    version.store(version.load(std::memory_order_relaxed) + 1, std::memory_order_relaxed);
+  }
 };
 
 }  // namespace harpoon::ode

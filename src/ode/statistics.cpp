@@ -6,11 +6,12 @@ namespace harpoon::ode {
 
 std::string to_line(const Statistics& s, std::string_view device) {
   std::string line = fmt::format(
-      "{} spaces; dSpaceCollide: {} searched, {} unchanged, {} recorded, {} left to libode; "
+      "{} spaces; dSpaceCollide: {} searched, {} updated, {} unchanged, {} recorded, {} left to "
+      "libode; "
       "dSpaceCollide2: {} scanned; {} pairs; dCollide: {} from batches ({}), {} by libode; {:.3f} "
       "s "
       "inside, callbacks included",
-      s.spaces.load(), s.searched.load(), s.unchanged.load(), s.recorded.load(),
+      s.spaces.load(), s.searched.load(), s.updated.load(), s.unchanged.load(), s.recorded.load(),
       s.left_to_stock.load(), s.scanned.load(), s.pairs.load(), s.batch_contacts.load(), device,
       s.stock_contacts.load(), static_cast<double>(s.inside_ns.load()) * 1e-9);
   if (s.missed_by_stock.load() != 0) {

@@ -14,6 +14,7 @@ struct Statistics {
 
   Counter spaces{0};           ///< that Harpoon came to know
   Counter searched{0};         ///< dSpaceCollide calls whose pairs were found by Harpoon
+  Counter updated{0};          ///< those of the call before, brought up to date for what moved
   Counter unchanged{0};        ///< answered from the call before: nothing had changed
   Counter recorded{0};         ///< run by libode while its pairs were noted down
   Counter scanned{0};          ///< dSpaceCollide2 calls answered by Harpoon

@@ -24,6 +24,7 @@ class Ode : public ::testing::Environment {
   void SetUp() override {
     // Small spaces too, which otherwise are libode's.
     ::setenv("HARPOON_MIN_GEOMS", "12", 1);
+    ::setenv("HARPOON_STATS", "1", 1);
     dInitODE2(0);
     dAllocateODEDataForThread(static_cast<unsigned>(dAllocateMaskAll));
   }
@@ -40,9 +41,12 @@ WorldPlan plan_of(std::uint64_t seed, SpaceKind kind) {
   plan.lattice = random.below(2) == 0;
   plan.spheres_only = random.below(4) == 0;
   plan.extent = plan.geoms > 200 ? 9 : 3;
-  plan.toggles_in_callbacks = random.below(3) == 0;
+  plan.all_enabled = random.below(3) == 0;
+  plan.toggles_in_callbacks = !plan.all_enabled && random.below(3) == 0;
   plan.nested_calls = random.below(4) == 0;
   plan.user_class = random.below(5) == 0;
+  plan.few_movers = random.below(3) == 0;
+  plan.space_within = random.below(6) == 0;
   return plan;
 }
 
@@ -59,25 +63,23 @@ struct Seen {
 };
 
 /// Runs one scene in both worlds. False after the first difference.
-bool run_scene(std::uint64_t seed, SpaceKind kind, Seen& seen) {
-  const WorldPlan plan = plan_of(seed, kind);
+bool run_scene(std::uint64_t seed, const WorldPlan& plan, Seen& seen) {
   World stock(stock_ode(), plan, seed), ours(linked_ode(), plan, seed);
   const int steps = plan.geoms > 200 ? kSteps / 10 : kSteps;
   for (int step = 0; step < steps; ++step) {
     stock.change();
     ours.change();
-    stock.collide();
-    ours.collide();
-    if (step % 3 == 0) {
-      stock.collide_with_others();
-      ours.collide_with_others();
+    for (World* world : {&stock, &ours}) {
+      if (step % 4 == 1) world->collide_with_others();
+      world->collide();
+      if (step % 3 == 0) world->collide_with_others();
     }
     const auto expected = stock.take_trace(), got = ours.take_trace();
     if (expected != got) {
       const auto at = std::mismatch(expected.begin(), expected.end(), got.begin(), got.end()).first;
-      ADD_FAILURE() << "seed " << seed << ", kind " << static_cast<int>(kind) << ", step " << step
-                    << ", " << plan.geoms << " geoms: traces of " << expected.size() << " and "
-                    << got.size() << " words differ at word " << at - expected.begin();
+      ADD_FAILURE() << "seed " << seed << ", kind " << static_cast<int>(plan.kind) << ", step "
+                    << step << ", " << plan.geoms << " geoms: traces of " << expected.size()
+                    << " and " << got.size() << " words differ at word " << at - expected.begin();
       return false;
     }
   }
@@ -88,7 +90,7 @@ bool run_scene(std::uint64_t seed, SpaceKind kind, Seen& seen) {
 void run_scenes(SpaceKind kind) {
   Seen seen;
   for (std::uint64_t seed = 1; seed <= kScenes; ++seed) {
-    ASSERT_TRUE(run_scene(seed, kind, seen));
+    ASSERT_TRUE(run_scene(seed, plan_of(seed, kind), seen));
   }
   EXPECT_GT(seen.callbacks, 1000 * kScenes);
   EXPECT_GT(seen.contacts, 100 * kScenes);
@@ -98,6 +100,30 @@ void run_scenes(SpaceKind kind) {
   EXPECT_GT(seen.nested, kScenes);
   std::cout << kScenes << " scenes: " << seen.callbacks << " callbacks, " << seen.contacts
             << " contacts, " << seen.nested << " nested calls\n";
+}
+
+/// Runs scenes in a process of its own, whose line of statistics the caller looks at.
+void run_and_exit(SpaceKind kind) {
+  Seen seen;
+  bool same = true;
+  for (std::uint64_t seed = 1; seed <= 16; ++seed) {
+    WorldPlan plan = plan_of(seed, kind);
+    plan.few_movers = true;
+    plan.all_enabled = seed % 2 == 0;
+    plan.toggles_in_callbacks = false;
+    same = run_scene(seed, plan, seen) && same;
+  }
+  std::exit(same ? 0 : 1);
+}
+
+TEST(DropInDeathTest, ScenesReachEveryWayToAnswer) {
+  for (const SpaceKind kind : {SpaceKind::simple, SpaceKind::hash, SpaceKind::sap}) {
+    EXPECT_EXIT(run_and_exit(kind), ::testing::ExitedWithCode(0),
+                "[1-9][0-9]+ searched, [1-9][0-9]{2,} updated, [1-9][0-9]+ unchanged.*"
+                "[1-9][0-9]{2,} scanned");
+  }
+  EXPECT_EXIT(run_and_exit(SpaceKind::quadtree), ::testing::ExitedWithCode(0),
+              "[1-9][0-9]+ unchanged, [1-9][0-9]+ recorded");
 }
 
 TEST(DropIn, SimpleSpacesAreStock) {
@@ -111,6 +137,41 @@ TEST(DropIn, SapSpacesAreStock) {
 }
 TEST(DropIn, QuadtreeSpacesAreStock) {
   run_scenes(SpaceKind::quadtree);
+}
+
+using Pairs = std::vector<std::pair<dGeomID, dGeomID>>;
+
+void note(void* pairs, dGeomID o1, dGeomID o2) {
+  static_cast<Pairs*>(pairs)->emplace_back(o1, o2);
+}
+
+/// A SAP space whose axes are all x is recorded and replayed. What is replayed has no bounds, and
+/// dSpaceCollide2 needs those of all geoms.
+TEST(DropIn, ARecordedSpaceCanBeScanned) {
+  const dSpaceID space = dSweepAndPruneSpaceCreate(nullptr, 0);
+  for (int k = 0; k < 40; ++k) dGeomSetPosition(dCreateSphere(space, 0.3), 0.5 * k, 0, 0);
+  for (int k = 0; k < 3; ++k) dGeomSetPosition(dCreateSphere(space, 0.3), 0, 5.0 + k, 0);
+  const dGeomID ray = dCreateRay(nullptr, 30);
+  dGeomRaySet(ray, 0, 4, 0, 0, 1, 0);
+  const auto scan = [&](const StockOde& ode) {
+    Pairs pairs;
+    ode.space_collide2(reinterpret_cast<dGeomID>(space), ray, &pairs, &note);
+    return pairs;
+  };
+  const Pairs expected = scan(stock_ode());
+  EXPECT_EQ(expected.size(), 3u);
+  EXPECT_EQ(scan(linked_ode()), expected);
+  Pairs first, again;
+  for (int call = 0; call < 4; ++call) {
+    again.clear();
+    dSpaceCollide(space, &again, &note);
+    if (call == 0) first = again;
+    EXPECT_EQ(again, first);
+    EXPECT_EQ(scan(linked_ode()), expected) << "after call " << call;
+  }
+  EXPECT_GE(first.size(), 39u);
+  dGeomDestroy(ray);
+  dSpaceDestroy(space);
 }
 
 }  // namespace

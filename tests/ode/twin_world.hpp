@@ -39,8 +39,11 @@ struct WorldPlan {
   bool toggles_in_callbacks = false;
   bool nested_calls = false;
   bool user_class = false;
-  bool keeps_geoms = false;  ///< none is made, destroyed or moved between bodies after the start
-  bool two_spaces = true;    ///< a second space with geoms to collide against the first
+  bool keeps_geoms = false;   ///< none is made, destroyed or moved between bodies after the start
+  bool two_spaces = true;     ///< a second space with geoms to collide against the first
+  bool few_movers = false;    ///< mostly nothing but a few geoms change, the same ones for a while
+  bool all_enabled = false;   ///< nothing is disabled or of size zero
+  bool space_within = false;  ///< some of the geoms are in a space that is a geom of the space
 };
 
 class World {
@@ -77,6 +80,7 @@ class World {
   void fill(std::uint32_t number);
   void place(std::uint32_t number);
   void change_one();
+  void move_few();
   double coordinate();
   double size();
   [[nodiscard]] std::uint64_t number_of(dGeomID geom) const;
@@ -89,6 +93,8 @@ class World {
   dWorldID world_;
   dSpaceID space_;
   dSpaceID others_;
+  dSpaceID within_ = nullptr;
+  std::vector<std::uint32_t> movers_;
   dTriMeshDataID mesh_;
   int user_class_ = -1;
   std::vector<Slot> slots_;

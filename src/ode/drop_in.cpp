@@ -70,9 +70,13 @@ std::unique_ptr<Engine> make(const Options& options, std::unique_ptr<Device> dev
                    fmt::format("this libode has no {}; harpoon does nothing", missing));
     return nullptr;
   }
-  Result<std::unique_ptr<Engine>> engine = make_engine<Real>(
-      ode,
-      {.options = options, .device = std::move(device), .log = &write_log_line, .differs = &stop});
+  Result<std::unique_ptr<Engine>> engine =
+      make_engine<Real>(ode, {.options = options,
+                              .device = std::move(device),
+                              .log = &write_log_line,
+                              .differs = &stop,
+                              .before_first_space = &watch_moves,
+                              .before_first_frame = &watch_contacts});
   return engine ? std::move(*engine) : nullptr;
 }
 
@@ -91,12 +95,6 @@ std::unique_ptr<Engine> make_drop_in() {
                    : make<double>(*options, std::move(device));
 }
 
-/// Set once the engine is there; read by every event.
-std::atomic<Engine*>& made() {
-  static std::atomic<Engine*> engine{nullptr};
-  return engine;
-}
-
 void write_statistics() {
   if (const Engine* engine = drop_in_if_made()) write_log_line(LogLevel::info, engine->report());
 }
@@ -106,7 +104,7 @@ void write_statistics() {
 Engine* drop_in() {
   static Engine* const kEngine = [] {
     Engine* const the_engine = make_drop_in().release();
-    made().store(the_engine, std::memory_order_release);
+    made_drop_in.store(the_engine, std::memory_order_release);
     const char* const statistics = std::getenv("HARPOON_STATS");
     if (the_engine != nullptr && statistics != nullptr && std::string_view(statistics) == "1") {
       std::atexit(&write_statistics);
@@ -114,10 +112,6 @@ Engine* drop_in() {
     return the_engine;
   }();
   return kEngine;
-}
-
-Engine* drop_in_if_made() {
-  return made().load(std::memory_order_acquire);
 }
 
 }  // namespace harpoon::ode

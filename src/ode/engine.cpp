@@ -36,7 +36,9 @@ class Entry {
     if (entered_) ++record.calls_under_way;
   }
   ~Entry() {
-    if (entered_ && --record_.calls_under_way == 0) record_.owner.store(nullptr);
+    if (entered_ && --record_.calls_under_way == 0) {
+      record_.owner.store(nullptr, std::memory_order_release);
+    }
   }
   Entry(const Entry&) = delete;
   Entry& operator=(const Entry&) = delete;
@@ -106,9 +108,26 @@ class EngineOf final : public Engine {
   using Record = SpaceRecord<Real>;
 
   [[nodiscard]] int kind_of(dxGeom* geom) const { return ode_.geom_get_class(geom); }
+  /// A space of whose geoms no move is to be noted as long as `looks_` stays.
+  struct Settled {
+    const EngineOf* engine = nullptr;
+    dxSpace* space = nullptr;
+    std::uint64_t looks = 0;
+  };
+  static Settled& last_settled() {
+    static thread_local Settled settled;
+    return settled;
+  }
+  [[gnu::noinline]] void note_move(dxGeom* geom, dxSpace* home);
+  /// Threads that look at spaces of their own may count as one; a thread sees its own.
+  void count_look() {
+    looks_.store(looks_.load(std::memory_order_relaxed) + 1, std::memory_order_relaxed);
+  }
   [[nodiscard]] int min_geoms(int kind) const;
   Record* find_or_make(dxSpace* space, int kind);
-  void note_changes(Record& record) const;
+  Record* put(dxSpace* space, std::shared_ptr<Record> record);
+  void expect_frames();
+  void note_changes(Record& record);
   void refresh_mirror(Record& record, bool in_collide);
   void follow_moved(Record& record, bool in_collide);
   [[nodiscard]] bool update_pairs(Record& record);
@@ -128,7 +147,8 @@ class EngineOf final : public Engine {
   [[nodiscard]] bool spheres_are_ours();
   int answer_contact(Frame<Real>& frame, int flags, ContactGeomOf<Real>& contact, int skip);
   void leave_to_stock(dxSpace* space, void* data, NearCallback* callback) {
-    Statistics::add(statistics_.left_to_stock, 1);
+    // Small spaces come this way, whose calls are so short that counting them shows.
+    if (options_.statistics) Statistics::add(statistics_.left_to_stock, 1);
     ode_.space_collide(space, data, callback);
   }
   [[nodiscard]] bool asks_unknown_tests(const Mirror<Real>& mirror) const {
@@ -143,6 +163,8 @@ class EngineOf final : public Engine {
   const Options& options_;
   Statistics statistics_;
   SpaceTable<Record> table_;
+  std::atomic<bool> expects_frames_{false};
+  std::atomic<std::uint64_t> looks_{1};  ///< how often what is known of spaces has been renewed
   UserTests user_tests_{};
   ContactSource source_;
   enum class Agreement { unknown, yes, no };
@@ -188,17 +210,35 @@ template <class Real>
 SpaceRecord<Real>* EngineOf<Real>::find_or_make(dxSpace* space, int kind) {
   Record* record = table_.empty() ? nullptr : table_.find(space);
   if (record != nullptr && record->kind == kind) return record;
+  return put(space, std::make_shared<Record>(space, kind));
+}
+
+template <class Real>
+SpaceRecord<Real>* EngineOf<Real>::put(dxSpace* space, std::shared_ptr<Record> record) {
   Statistics::add(statistics_.spaces, 1);
-  return table_.put(space, std::make_shared<Record>(space, kind));
+  if (table_.empty() && parts_.before_first_space) parts_.before_first_space();
+  count_look();
+  return table_.put(space, std::move(record));
+}
+
+/// To be called before a frame is opened.
+template <class Real>
+void EngineOf<Real>::expect_frames() {
+  if (expects_frames_.load(std::memory_order_acquire)) return;
+  if (parts_.before_first_frame) parts_.before_first_frame();
+  expects_frames_.store(true, std::memory_order_release);
 }
 
 /// Takes note of what was reported, or of everything where nothing is. Geoms that moved stay in
 /// `record.moved` until the mirror follows them.
 template <class Real>
-void EngineOf<Real>::note_changes(Record& record) const {
+void EngineOf<Real>::note_changes(Record& record) {
+  count_look();
   const int count = ode_.space_get_num_geoms(record.space);
-  const bool reported = record.changed.exchange(false, std::memory_order_relaxed);
-  const bool widely = record.changed_widely.exchange(false, std::memory_order_relaxed);
+  const bool reported = record.changed.load(std::memory_order_relaxed) &&
+                        record.changed.exchange(false, std::memory_order_relaxed);
+  const bool widely = record.changed_widely.load(std::memory_order_relaxed) &&
+                      record.changed_widely.exchange(false, std::memory_order_relaxed);
   const bool is_told = options_.changes_are_reported && count == record.count;
   record.was_unchanged = !reported && is_told;
   if (record.was_unchanged) return;
@@ -380,6 +420,7 @@ void EngineOf<Real>::replay_record(Record& record, LiveCheck live, void* data,
   const std::shared_ptr<Record> alive = table_.hold(record.space);
   Statistics::add(statistics_.pairs, record.pairs.size());
   record.contacts.rewind(record.was_unchanged);
+  expect_frames();
   Frame<Real> frame(record.space);
   frame.default_rules = computes_by_default_rules();
   Replayer<Real>{ode_, user_tests_, data, callback}.replay(
@@ -530,6 +571,7 @@ bool EngineOf<Real>::answer_scan(dxSpace* scanned, dxGeom* other, bool scanned_f
   Statistics::add(statistics_.scanned, 1);
   Statistics::add(statistics_.pairs, pairs->size());
   if (pairs->empty()) return true;
+  expect_frames();
   Frame<Real> frame(scanned);
   Replayer<Real>{ode_, user_tests_, data, callback}.replay(
       frame, *pairs, scanned_first ? LiveCheck::first : LiveCheck::second, rerun);
@@ -639,14 +681,31 @@ int EngineOf<Real>::collide(dxGeom* o1, dxGeom* o2, int flags, void* contact, in
   return ode_.collide(o1, o2, flags, contacts, skip);
 }
 
+/// In a world where everything moves this is called for every geom, mostly for one whose space is
+/// known to have changed beyond counting: then nothing is to be noted until the space is looked at.
 template <class Real>
 void EngineOf<Real>::moved(dxGeom* geom) {
-  if (table_.empty() || geom == nullptr) return;
-  for (dxSpace* space = ode_.geom_get_space(geom); space != nullptr;
-       space = ode_.geom_get_space(geom)) {
-    if (Record* record = table_.find(space)) record->note_moved(geom);
+  const Settled& settled = last_settled();
+  dxSpace* const home = ode_.geom_get_space(geom);
+  if (settled.space == home && settled.looks == looks_.load(std::memory_order_relaxed) &&
+      settled.engine == this) {
+    return;
+  }
+  note_move(geom, home);
+}
+
+template <class Real>
+void EngineOf<Real>::note_move(dxGeom* geom, dxSpace* home) {
+  const std::uint64_t looks = looks_.load(std::memory_order_relaxed);
+  bool is_settled = open_frames == 0;
+  for (dxSpace* space = home; space != nullptr; space = ode_.geom_get_space(geom)) {
+    if (Record* record = table_.find(space)) {
+      record->note_moved(geom);
+      is_settled = is_settled && record->changed_widely.load(std::memory_order_relaxed);
+    }
     geom = as_geom(space);
   }
+  if (is_settled) last_settled() = {this, home, looks};
 }
 
 template <class Real>
@@ -717,8 +776,7 @@ void EngineOf<Real>::sap_created(dxSpace* space, int axis_order) {
   if (!order.usable()) return;
   auto record = std::make_shared<Record>(space, geom_class::kSapSpace);
   record->sap = std::move(order);
-  Statistics::add(statistics_.spaces, 1);
-  table_.put(space, std::move(record));
+  put(space, std::move(record));
 }
 
 template <class Real>

@@ -28,7 +28,7 @@ class Engine {
   virtual void space_collide2(dxGeom* o1, dxGeom* o2, void* data, NearCallback* callback) = 0;
   virtual int collide(dxGeom* o1, dxGeom* o2, int flags, void* contact, int skip) = 0;
 
-  /// dGeomMoved: a geom's bounds or pose.
+  /// dGeomMoved: a geom's bounds or pose. Not null.
   virtual void moved(dxGeom* geom) = 0;
   /// Body, category or collide bits.
   virtual void filters_changed(dxGeom* geom) = 0;
@@ -61,6 +61,12 @@ struct EngineParts {
   /// Under `Options::verify`: called with the first difference; should not return. The frame is
   /// that of the callback sequence, null for a contact or a quadtree.
   std::function<void(const std::string& difference, const CollisionFrame* frame)> differs;
+  /// Called before a space becomes known to an engine that knows none: until then it need not hear
+  /// of any `moved`. May be empty.
+  std::function<void()> before_first_space = {};
+  /// Called before callbacks are first called for pairs of the engine's own: until then it need not
+  /// hear of any `collide`. May be empty.
+  std::function<void()> before_first_frame = {};
 };
 
 /// Errors: out_of_memory.

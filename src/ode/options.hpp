@@ -30,7 +30,7 @@ struct Options {
   int min_geoms_simple = 160;
   int min_geoms_hash = 8;
   int min_geoms_sap = 32;
-  int min_geoms_quadtree = 16;
+  int min_geoms_quadtree = 64;
   int min_geoms_scan = 64;  ///< dSpaceCollide2 on this space
 };
 

@@ -2,10 +2,17 @@
 // the engine; nothing is decided here. None takes or returns a floating-point number, so they serve
 // libode in both precisions.
 
+#include <atomic>
+
 #include "harpoon/export.hpp"
 #include "ode/drop_in.hpp"
 #include "ode/frame.hpp"
 #include "ode/interposed.hpp"
+
+extern "C" {
+HARPOON_API int dCollide(dxGeom* o1, dxGeom* o2, int flags, void* contact, int skip);
+HARPOON_API void dGeomMoved(dxGeom* geom);
+}
 
 namespace {
 
@@ -25,6 +32,50 @@ struct GeomClass {
   void* destructor;
 };
 
+using Collide = int(dxGeom*, dxGeom*, int, void*, int);
+using GeomMoved = void(dxGeom*);
+
+Collide find_and_collide, watch_collide;
+GeomMoved find_and_move, watch_move;
+
+// The two functions that programs call most often are one jump each. It leads to libode until the
+// engine has pairs of its own or knows a space, which in programs with small spaces only it never
+// does.
+constinit std::atomic<Collide*> next_collide{&find_and_collide};
+constinit std::atomic<GeomMoved*> next_geom_moved{&find_and_move};
+// libode's, where they are asked for once there is something to watch.
+constinit std::atomic<Collide*> stock_collide{nullptr};
+constinit std::atomic<GeomMoved*> stock_geom_moved{nullptr};
+
+int find_and_collide(dxGeom* o1, dxGeom* o2, int flags, void* contact, int skip) {
+  Collide* expected = &find_and_collide;
+  next_collide.compare_exchange_strong(expected, libode().collide);
+  return dCollide(o1, o2, flags, contact, skip);
+}
+
+void find_and_move(dxGeom* geom) {
+  GeomMoved* expected = &find_and_move;
+  next_geom_moved.compare_exchange_strong(expected, libode().geom_moved);
+  dGeomMoved(geom);
+}
+
+int watch_collide(dxGeom* o1, dxGeom* o2, int flags, void* contact, int skip) {
+  if (harpoon::ode::open_frames == 0) [[likely]] {
+    return stock_collide.load(std::memory_order_relaxed)(o1, o2, flags, contact, skip);
+  }
+  return drop_in_if_made()->collide(o1, o2, flags, contact, skip);
+}
+
+void watch_move(dxGeom* geom) {
+  stock_geom_moved.load(std::memory_order_relaxed)(geom);
+  if (geom != nullptr) drop_in_if_made()->moved(geom);
+}
+
+Engine* engine_for_calls() {
+  Engine* const engine = drop_in_if_made();
+  return engine != nullptr ? engine : drop_in();
+}
+
 void set_enabled(dxGeom* geom, bool enabled, void (*set)(dxGeom*)) {
   Engine* const engine = drop_in_if_made();
   const bool changes =
@@ -35,29 +86,40 @@ void set_enabled(dxGeom* geom, bool enabled, void (*set)(dxGeom*)) {
 
 }  // namespace
 
+namespace harpoon::ode {
+
+void watch_moves() {
+  stock_geom_moved.store(libode().geom_moved, std::memory_order_relaxed);
+  next_geom_moved.store(&watch_move, std::memory_order_relaxed);
+}
+
+void watch_contacts() {
+  stock_collide.store(libode().collide, std::memory_order_relaxed);
+  next_collide.store(&watch_collide, std::memory_order_relaxed);
+}
+
+}  // namespace harpoon::ode
+
 extern "C" {
 
 HARPOON_API void dSpaceCollide(dxSpace* space, void* data, NearCallback* callback) {
-  Engine* const engine = drop_in();
+  Engine* const engine = engine_for_calls();
   if (engine == nullptr) return libode().space_collide(space, data, callback);
   engine->space_collide(space, data, callback);
 }
 
 HARPOON_API void dSpaceCollide2(dxGeom* o1, dxGeom* o2, void* data, NearCallback* callback) {
-  Engine* const engine = drop_in();
+  Engine* const engine = engine_for_calls();
   if (engine == nullptr) return libode().space_collide2(o1, o2, data, callback);
   engine->space_collide2(o1, o2, data, callback);
 }
 
 HARPOON_API int dCollide(dxGeom* o1, dxGeom* o2, int flags, void* contact, int skip) {
-  static int (*const kStock)(dxGeom*, dxGeom*, int, void*, int) = libode().collide;
-  if (harpoon::ode::open_frames == 0) return kStock(o1, o2, flags, contact, skip);
-  return drop_in_if_made()->collide(o1, o2, flags, contact, skip);
+  return next_collide.load(std::memory_order_relaxed)(o1, o2, flags, contact, skip);
 }
 
 HARPOON_API void dGeomMoved(dxGeom* geom) {
-  libode().geom_moved(geom);
-  if (Engine* const engine = drop_in_if_made()) engine->moved(geom);
+  next_geom_moved.load(std::memory_order_relaxed)(geom);
 }
 
 HARPOON_API void dGeomDestroy(dxGeom* geom) {

@@ -106,7 +106,7 @@ void run_scenes(SpaceKind kind) {
 void run_and_exit(SpaceKind kind) {
   Seen seen;
   bool same = true;
-  for (std::uint64_t seed = 1; seed <= 16; ++seed) {
+  for (std::uint64_t seed = 1; seed <= std::min<std::uint64_t>(kScenes / 2, 16); ++seed) {
     WorldPlan plan = plan_of(seed, kind);
     plan.few_movers = true;
     plan.all_enabled = seed % 2 == 0;

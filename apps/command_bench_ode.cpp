@@ -2,9 +2,14 @@
 // programs.
 
 #include <fmt/format.h>
+#include <sys/socket.h>
+#include <unistd.h>
 
 #include <CLI/CLI.hpp>
+#include <cerrno>
 #include <cstdio>
+#include <cstdlib>
+#include <cstring>
 #include <filesystem>
 #include <memory>
 
@@ -19,6 +24,7 @@
 #include "bench/ode/collision_calls.hpp"
 #include "bench/ode/drop_in_bench.hpp"
 #include "bench/ode/program_bench.hpp"
+#include "bench/ode/program_twin.hpp"
 
 namespace harpoon::app {
 namespace {
@@ -67,12 +73,44 @@ std::string describe(const Terminal& terminal, const bench::DropInOutcome& outco
   return text;
 }
 
-/// Measured as it is used: once more, with the library in front of libode.
-void require_drop_in() {
+/// Measured as it is used: this command once more, with the library in front of libode. Returns
+/// only where that is so already.
+void require_drop_in(const std::vector<Variable>& variables) {
   if (bench::drop_in_is_interposed()) return;
   std::vector<std::string> words = own_words();
   words[0] = "/proc/self/exe";
-  run_with_drop_in(words, {});
+  run_with_drop_in(words, variables);
+}
+
+/// Holds the number of the socket to the process with stock libode.
+constexpr const char* kTwinVariable = "HARPOON_BENCH_TWIN";
+
+/// Leaves a process behind that runs programs with stock libode, and goes on as one with the
+/// drop-in. Returns the socket between them.
+int part_from_stock() {
+  if (bench::drop_in_is_interposed()) {
+    const char* const twin = std::getenv(kTwinVariable);
+    if (twin != nullptr) return std::atoi(twin);
+    throw CommandError(ExitCode::usage,
+                       "libharpoon_ode is preloaded already. Run `harpoon bench ode "
+                       "--program` without it: it does so itself.");
+  }
+  int ends[2];
+  const bool has_ends = ::socketpair(AF_UNIX, SOCK_STREAM, 0, ends) == 0;
+  const pid_t child = has_ends ? ::fork() : -1;
+  if (child < 0) {
+    throw CommandError(
+        ExitCode::environment,
+        fmt::format("There is no second process: {}. End some others.", std::strerror(errno)));
+  }
+  if (child == 0) {
+    ::close(ends[0]);
+    bench::serve_programs(ends[1]);
+    ::_exit(0);
+  }
+  ::close(ends[1]);
+  require_drop_in({{kTwinVariable, std::to_string(ends[0])}});
+  return ends[0];
 }
 
 /// Runs `work` with a progress to report to.
@@ -170,8 +208,9 @@ void measure_programs(const Context& context, const OdeOptions& options) {
                                      to_string(kind)));
     }
   }
+  const int stock = part_from_stock();
   const auto rows = with_progress(context, [&](const std::function<void(double)>& share) {
-    return bench::run_programs(plan, share, is_interrupted);
+    return bench::run_programs(plan, stock, share, is_interrupted);
   });
   deliver(options.json, describe(context.terminal, rows),
           bench::programs_json(plan, rows, bench::describe_machine(), context.command_line));
@@ -184,9 +223,10 @@ void measure_programs(const Context& context, const OdeOptions& options) {
 }
 
 void run(const Context& context, const OdeOptions& options) {
-  require_drop_in();
   if (!options.json.empty() && options.json != "-") require_writable_file(options.json, "--json");
-  options.program.empty() ? measure(context, options) : measure_programs(context, options);
+  if (!options.program.empty()) return measure_programs(context, options);
+  require_drop_in({});
+  measure(context, options);
 }
 
 }  // namespace
@@ -225,9 +265,11 @@ void add_bench_ode(CLI::App& bench, Context& context) {
   ode->footer(
       "Times are medians of a step, stock and drop-in in turn on twin worlds, in one process with\n"
       "the library preloaded: dSpaceCollide with dCollide in the callback. With --program also of\n"
-      "the whole step, solver included: \"share\" is the part of collision in stock's step, "
-      "\"limit\"\n"
-      "what the step would gain if collision took no time (Amdahl).\n\n"
+      "the whole step, solver included, in two processes with and without the preload: \"share\" "
+      "is\n"
+      "the part of collision in stock's step, \"limit\" what the step would gain if collision took "
+      "no\n"
+      "time (Amdahl).\n\n"
       "Programs: diamond10, diamond30: the paper's world. pile: 3,000 bodies dropped into a pen.\n"
       "sleeping: 10,000 boxes, all asleep but for those that 16 balls hit. planner, clutter: an "
       "arm\n"

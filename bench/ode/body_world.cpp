@@ -57,12 +57,11 @@ dBodyID BodyWorld::add_body(dGeomID geom, const dMass& mass, double x, double y,
   return body;
 }
 
-Program::Work BodyWorld::step(const CollisionCalls& calls) {
-  calls_ = &calls;
+Program::Work BodyWorld::step() {
   pairs_ = 0;
   found_.clear();
   const double begin_ns = now_ns();
-  calls.space_collide(space_, this, &BodyWorld::near);
+  dSpaceCollide(space_, this, &BodyWorld::near);
   const double collision_ms = (now_ns() - begin_ns) * 1e-6;
   join();
   act();
@@ -79,7 +78,7 @@ void BodyWorld::meet(dGeomID o1, dGeomID o2) {
   ++pairs_;
   if (rests(dGeomGetBody(o1)) && rests(dGeomGetBody(o2))) return;
   dContactGeom contacts[kMaxContacts];
-  const int count = calls_->collide(o1, o2, kMaxContacts, contacts, sizeof(dContactGeom));
+  const int count = dCollide(o1, o2, kMaxContacts, contacts, sizeof(dContactGeom));
   found_.insert(found_.end(), contacts, contacts + count);
 }
 

@@ -20,7 +20,7 @@ class BodyWorld : public Program {
   BodyWorld();
   ~BodyWorld() override;
 
-  Work step(const CollisionCalls& calls) final;
+  Work step() final;
   [[nodiscard]] std::size_t geoms() const final;
   void append_state(std::vector<dReal>& state) const final;
 
@@ -44,7 +44,6 @@ class BodyWorld : public Program {
   dJointGroupID joints_;
   std::vector<dBodyID> bodies_;
   std::vector<dContactGeom> found_;  // of this step, in the order of the callbacks
-  const CollisionCalls* calls_ = nullptr;
   std::uint64_t pairs_ = 0;
 };
 

@@ -7,7 +7,6 @@
 #include <numeric>
 
 #include "bench/algorithm1.hpp"
-#include "bench/ode/collision_calls.hpp"
 
 namespace harpoon::bench {
 namespace {
@@ -102,16 +101,15 @@ DiamondWorld::~DiamondWorld() {
 
 void DiamondWorld::step(const Observer& observe) {
   observer_ = &observe;
-  collide(linked_calls());
+  collide();
   observer_ = nullptr;
   advance();
 }
 
-std::uint64_t DiamondWorld::collide(const CollisionCalls& calls) {
-  calls_ = &calls;
+std::uint64_t DiamondWorld::collide() {
   candidates_ = 0;
   found_.clear();
-  calls.space_collide(space_, this, &DiamondWorld::near);
+  dSpaceCollide(space_, this, &DiamondWorld::near);
   return candidates_;
 }
 
@@ -132,7 +130,7 @@ void DiamondWorld::near(void* self, dxGeom* geom1, dxGeom* geom2) {
 
 void DiamondWorld::meet(dxGeom* geom1, dxGeom* geom2) {
   dContactGeom contact;
-  const bool hit = calls_->collide(geom1, geom2, 1, &contact, sizeof contact) != 0;
+  const bool hit = dCollide(geom1, geom2, 1, &contact, sizeof contact) != 0;
   ++candidates_;
   if (hit) found_.push_back(contact);
   if (observer_ == nullptr) return;

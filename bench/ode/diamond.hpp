@@ -18,8 +18,6 @@ struct dContactGeom;
 
 namespace harpoon::bench {
 
-struct CollisionCalls;
-
 /// SI units. The prototype publishes r = 0.1 and the time step; mass and force are ours.
 struct DiamondParameters {
   unsigned h_max = 3;       ///< shells of spheres around the centre one, 0 to kMaxDiamondHMax
@@ -55,9 +53,9 @@ class DiamondWorld {
   /// Broad phase, contacts (each candidate is shown to `observe`), forces, step.
   void step(const Observer& observe);
 
-  /// The same step in two parts, unobserved. First broad phase and contacts, asked of `calls`;
-  /// returns the number of candidates.
-  std::uint64_t collide(const CollisionCalls& calls);
+  /// The same step in two parts, unobserved. First broad phase and contacts; returns the number of
+  /// candidates.
+  std::uint64_t collide();
   /// Then forces, and the step with a joint for each contact found.
   void advance();
   [[nodiscard]] std::size_t contact_count() const;
@@ -84,7 +82,6 @@ class DiamondWorld {
   std::vector<std::uint32_t> indices_;  // geoms point into it
   std::vector<dxBody*> bodies_;
   const Observer* observer_ = nullptr;  // null where nobody looks
-  const CollisionCalls* calls_ = nullptr;
   std::uint64_t candidates_ = 0;
 };
 

@@ -9,9 +9,9 @@ namespace harpoon::bench {
 DiamondProgram::DiamondProgram(unsigned h_max)
     : world_(std::move(DiamondWorld::create({.h_max = h_max}).value())) {}
 
-Program::Work DiamondProgram::step(const CollisionCalls& calls) {
+Program::Work DiamondProgram::step() {
   const double begin_ns = now_ns();
-  const std::uint64_t pairs = world_->collide(calls);
+  const std::uint64_t pairs = world_->collide();
   const double collision_ms = (now_ns() - begin_ns) * 1e-6;
   const std::uint64_t contacts = world_->contact_count();
   world_->advance();

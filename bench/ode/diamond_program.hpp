@@ -11,7 +11,7 @@ class DiamondProgram final : public Program {
  public:
   explicit DiamondProgram(unsigned h_max);
 
-  Work step(const CollisionCalls& calls) override;
+  Work step() override;
   [[nodiscard]] std::size_t geoms() const override { return world_->size(); }
   void append_state(std::vector<dReal>& state) const override;
 

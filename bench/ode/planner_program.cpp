@@ -103,7 +103,7 @@ void PlannerProgram::add_obstacle(double side, double thickness, double x, doubl
   dGeomSetCollideBits(geom, kArmBit);
 }
 
-Program::Work PlannerProgram::step(const CollisionCalls& calls) {
+Program::Work PlannerProgram::step() {
   work_ = {};
   answers_.clear();
   Configuration target;
@@ -120,7 +120,7 @@ Program::Work PlannerProgram::step(const CollisionCalls& calls) {
     for (std::size_t joint = 0; joint < kJoints; ++joint) {
       next[joint] = from[joint] + share * (target[joint] - from[joint]);
     }
-    if (collides(calls, next)) break;
+    if (collides(next)) break;
     reached = next;
   }
   if (reached != from) tree_.push_back(reached);
@@ -170,12 +170,11 @@ void PlannerProgram::place_arm(const Configuration& configuration) {
   }
 }
 
-bool PlannerProgram::collides(const CollisionCalls& calls, const Configuration& configuration) {
+bool PlannerProgram::collides(const Configuration& configuration) {
   place_arm(configuration);
   has_contact_ = false;
-  calls_ = &calls;
   const double begin_ns = now_ns();
-  calls.space_collide(space_, this, &PlannerProgram::near);
+  dSpaceCollide(space_, this, &PlannerProgram::near);
   work_.collision_ms += (now_ns() - begin_ns) * 1e-6;
   answers_.push_back(has_contact_ ? 1 : 0);
   return has_contact_;
@@ -193,7 +192,7 @@ void PlannerProgram::meet(dGeomID o1, dGeomID o2) {
   const bool both_of_arm = link1 != 0 && link2 != 0;
   if (both_of_arm && std::max(link1, link2) - std::min(link1, link2) <= 1) return;
   dContactGeom contact;
-  if (calls_->collide(o1, o2, 1, &contact, sizeof contact) == 0) return;
+  if (dCollide(o1, o2, 1, &contact, sizeof contact) == 0) return;
   has_contact_ = true;
   ++work_.contacts;
   answers_.insert(answers_.end(), contact.pos, contact.pos + 3);

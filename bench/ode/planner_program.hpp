@@ -24,7 +24,7 @@ class PlannerProgram final : public Program {
 
   /// From the tree's node nearest to a random configuration some way toward it, until something
   /// collides.
-  Work step(const CollisionCalls& calls) override;
+  Work step() override;
   [[nodiscard]] std::size_t geoms() const override;
   /// The tree's size and last node, and what each check of the last step found.
   void append_state(std::vector<dReal>& state) const override;
@@ -38,7 +38,7 @@ class PlannerProgram final : public Program {
   void add_obstacle(double side, double thickness, double x, double y, double z);
   [[nodiscard]] const Configuration& nearest(const Configuration& target) const;
   void place_arm(const Configuration& configuration);
-  [[nodiscard]] bool collides(const CollisionCalls& calls, const Configuration& configuration);
+  [[nodiscard]] bool collides(const Configuration& configuration);
   static void near(void* self, dGeomID o1, dGeomID o2);
   void meet(dGeomID o1, dGeomID o2);
 
@@ -46,7 +46,6 @@ class PlannerProgram final : public Program {
   Numbers numbers_;
   std::vector<dGeomID> arm_;  // those of the first link first
   std::vector<Configuration> tree_;
-  const CollisionCalls* calls_ = nullptr;
   Work work_;
   bool has_contact_ = false;
   std::vector<dReal> answers_;

@@ -1,16 +1,16 @@
 #pragma once
 
 // Complete programs on ODE, as its users write them: collision, contact joints and the solver, or a
-// planner that only asks what collides. Which collision detection they ask is the caller's choice;
-// all else is the same, so that twins stay alike. They measure their collision and nothing else.
+// planner that only asks what collides. They know nothing of Harpoon, depend on their seed only,
+// and measure their collision and nothing else.
+
+#include <ode/ode.h>
 
 #include <cstdint>
 #include <memory>
 #include <optional>
 #include <string_view>
 #include <vector>
-
-#include "bench/ode/collision_calls.hpp"
 
 namespace harpoon::bench {
 
@@ -41,7 +41,7 @@ class Program {
     std::uint64_t pairs = 0, contacts = 0;
   };
   /// One step of the program.
-  virtual Work step(const CollisionCalls& calls) = 0;
+  virtual Work step() = 0;
   /// Steps before the program is in the state that it is measured in.
   [[nodiscard]] virtual unsigned settling_steps() const { return 0; }
   [[nodiscard]] virtual std::size_t geoms() const = 0;

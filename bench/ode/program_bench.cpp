@@ -5,8 +5,9 @@
 #include <utility>
 
 #include "bench/json.hpp"
+#include "bench/ode/collision_calls.hpp"
+#include "bench/ode/program_twin.hpp"
 #include "bench/ode/runtime.hpp"
-#include "bench/timer.hpp"
 
 namespace harpoon::bench {
 namespace {
@@ -15,78 +16,57 @@ constexpr unsigned kWarmSteps = 2;
 constexpr unsigned kLeastSteps = 5;
 constexpr unsigned kMostSteps = 2000;
 
-/// One of the twins. The solver takes the order of its constraints from ODE's random numbers: each
-/// twin has a sequence of its own.
-class Side {
- public:
-  Side(const ProgramPlan& plan, ProgramKind kind, const CollisionCalls& calls)
-      : program_(make_program(kind, plan.geoms, plan.seed)), calls_(calls), random_(plan.seed) {}
+/// What a side took in the measured steps.
+struct Samples {
+  std::vector<double> step_ms, collision_ms;
 
-  void step() {
-    dRandSetSeed(random_);
-    const double begin_ns = now_ns();
-    work_ = program_->step(calls_);
-    step_ms_ = (now_ns() - begin_ns) * 1e-6;
-    random_ = dRandGetSeed();
-    state_.clear();
-    program_->append_state(state_);
+  void add(const ProgramStep& step) {
+    step_ms.push_back(step.step_ms);
+    collision_ms.push_back(step.work.collision_ms);
   }
-  void note() {
-    step_samples_.push_back(step_ms_);
-    collision_samples_.push_back(work_.collision_ms);
-  }
-
-  [[nodiscard]] const Program& program() const { return *program_; }
-  [[nodiscard]] const Program::Work& work() const { return work_; }
-  [[nodiscard]] double step_ms() const { return step_ms_; }
-  [[nodiscard]] Summary steps() const { return summarize(step_samples_); }
-  [[nodiscard]] Summary collisions() const { return summarize(collision_samples_); }
-  [[nodiscard]] bool equals(const Side& other) const {
-    return work_.pairs == other.work_.pairs && work_.contacts == other.work_.contacts &&
-           state_.size() == other.state_.size() &&
-           std::memcmp(state_.data(), other.state_.data(), state_.size() * sizeof(dReal)) == 0;
-  }
-
- private:
-  std::unique_ptr<Program> program_;
-  CollisionCalls calls_;
-  unsigned long random_;
-  Program::Work work_;
-  double step_ms_ = 0;
-  std::vector<dReal> state_;
-  std::vector<double> step_samples_, collision_samples_;
 };
 
-ProgramRow measure(const ProgramPlan& plan, ProgramKind kind, const Interrupted& interrupted) {
-  Side stock(plan, kind, stock_calls()), ours(plan, kind, linked_calls());
+bool are_equal(const ProgramStep& a, const ProgramStep& b) {
+  return a.work.pairs == b.work.pairs && a.work.contacts == b.work.contacts &&
+         a.state.size() == b.state.size() &&
+         std::memcmp(a.state.data(), b.state.data(), a.state.size() * sizeof(dReal)) == 0;
+}
+
+Result<ProgramRow> measure(const ProgramPlan& plan, ProgramKind kind, int socket,
+                           const Interrupted& interrupted) {
+  ProgramTwin twin(socket, kind, plan.geoms, plan.seed);
+  ProgramRun run(kind, plan.geoms, plan.seed);
   ProgramRow row;
   row.program = kind;
-  row.geoms = ours.program().geoms();
+  row.geoms = run.program().geoms();
   row.identical = true;
-  const unsigned settling = std::max(kWarmSteps, ours.program().settling_steps());
+  const unsigned settling = std::max(kWarmSteps, run.program().settling_steps());
+  Samples stock_samples, our_samples;
   double spent_ms = 0;
   unsigned measured = 0;
   for (unsigned step = 0;
        measured < kMostSteps && (measured < kLeastSteps || spent_ms < plan.seconds * 1e3); ++step) {
     if (must_stop(interrupted)) return row;
-    const bool stock_first = step % 2 == 0;
-    (stock_first ? stock : ours).step();
-    (stock_first ? ours : stock).step();
-    row.identical = row.identical && stock.equals(ours);
+    const std::optional<ProgramStep> stock = twin.step();
+    if (!stock) {
+      return Error{Errc::device_unavailable, "The process with stock libode has ended. Try again."};
+    }
+    const ProgramStep ours = run.step();
+    row.identical = row.identical && are_equal(*stock, ours);
     if (step < settling) continue;
     ++measured;
-    spent_ms += stock.step_ms() + ours.step_ms();
-    stock.note();
-    ours.note();
-    row.pairs += static_cast<double>(ours.work().pairs);
-    row.contacts += static_cast<double>(ours.work().contacts);
+    spent_ms += stock->step_ms + ours.step_ms;
+    stock_samples.add(*stock);
+    our_samples.add(ours);
+    row.pairs += static_cast<double>(ours.work.pairs);
+    row.contacts += static_cast<double>(ours.work.contacts);
   }
   row.pairs /= measured;
   row.contacts /= measured;
-  row.stock_step_ms = stock.steps();
-  row.harpoon_step_ms = ours.steps();
-  row.stock_collision_ms = stock.collisions();
-  row.harpoon_collision_ms = ours.collisions();
+  row.stock_step_ms = summarize(stock_samples.step_ms);
+  row.harpoon_step_ms = summarize(our_samples.step_ms);
+  row.stock_collision_ms = summarize(stock_samples.collision_ms);
+  row.harpoon_collision_ms = summarize(our_samples.collision_ms);
   return row;
 }
 
@@ -119,7 +99,7 @@ double ProgramRow::speedup() const {
   return stock_step_ms.median / harpoon_step_ms.median;
 }
 
-Result<std::vector<ProgramRow>> run_programs(const ProgramPlan& plan,
+Result<std::vector<ProgramRow>> run_programs(const ProgramPlan& plan, int stock,
                                              const std::function<void(double)>& share,
                                              const Interrupted& interrupted) {
   if (!drop_in_is_interposed()) {
@@ -129,7 +109,10 @@ Result<std::vector<ProgramRow>> run_programs(const ProgramPlan& plan,
   const OdeRuntime ode;
   std::vector<ProgramRow> rows;
   for (const ProgramKind kind : plan.programs) {
-    rows.push_back(measure(plan, kind, interrupted));
+    const Result<ProgramRow> row = measure(plan, kind, stock, interrupted);
+    if (!row) return row.error();
+    rows.push_back(*row);
+    if (must_stop(interrupted)) return rows;
     share(static_cast<double>(rows.size()) / static_cast<double>(plan.programs.size()));
   }
   return rows;

@@ -1,7 +1,7 @@
 #pragma once
 
-// What whole programs gain: each program twice, with stock libode and with the drop-in, step by
-// step in turn. It needs a process in which the drop-in is interposed; it makes none itself.
+// What whole programs gain: each program twice, in this process with the drop-in and in another
+// with stock libode, step by step in turn. It makes neither process itself.
 
 #include <functional>
 #include <string>
@@ -38,8 +38,9 @@ struct ProgramRow {
   [[nodiscard]] double limit() const { return 1 / (1 - share()); }
 };
 
-/// Errors: device_unavailable when the drop-in is not in front of libode.
-Result<std::vector<ProgramRow>> run_programs(const ProgramPlan& plan,
+/// `stock` is a socket at whose other end a process without the drop-in is in serve_programs.
+/// Errors: device_unavailable when the drop-in is not in front of libode, or that process has gone.
+Result<std::vector<ProgramRow>> run_programs(const ProgramPlan& plan, int stock,
                                              const std::function<void(double)>& share,
                                              const Interrupted& interrupted);
 

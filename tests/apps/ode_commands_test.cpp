@@ -219,6 +219,17 @@ TEST(BenchOde, AProgramThatRunsAnotherWayIsReported) {
   EXPECT_FALSE(Json::parse(other.out).at("results").at(0).at("identical"));
 }
 
+TEST(BenchOde, WholeProgramsNeedAStockOfTheirOwn) {
+  const std::vector<std::string> preloaded = {"run",   "--",  "/proc/self/exe",
+                                              "bench", "ode", "--program=planner"};
+  const Finished twice = run_piped(preloaded);
+  EXPECT_EQ(twice.exit_code, 2);
+  EXPECT_TRUE(contains(twice.err, "preloaded already")) << twice.err;
+  const Finished alone = run_piped(preloaded, {"HARPOON_BENCH_TWIN=999"});
+  EXPECT_EQ(alone.exit_code, 3);
+  EXPECT_TRUE(contains(alone.err, "The process with stock libode has ended")) << alone.err;
+}
+
 TEST(BenchOde, OptionsThatDoNotGoTogetherAreNamed) {
   for (const char* option : {"--kind=gas", "--space=hash"}) {
     const Finished f = run_piped({"bench", "ode", "--program", "pile", option});

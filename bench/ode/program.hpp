@@ -18,7 +18,7 @@ enum class ProgramKind : std::uint8_t {
   diamond10,  ///< the paper's diamond, hMax 10: 1,561 spheres
   diamond30,  ///< hMax 30: 37,881 spheres
   pile,       ///< spheres, boxes and capsules dropped into a pen
-  sleeping,   ///< stacks of boxes, all asleep but for those that sixteen balls run into
+  sleeping,   ///< stacks of boxes, all asleep but for those that eight balls run into
   planner,    ///< an arm of 42 geoms searches a way between plates; no solver
   clutter,    ///< the same, each plate given as 25 boxes as a scanner sees it
 };

@@ -13,14 +13,18 @@ constexpr double kBox = 0.5;
 constexpr std::size_t kBoxesOfStack = 4;
 /// Metres between the centres of neighbouring stacks.
 constexpr double kSpacing = 1.5;
-constexpr std::size_t kBalls = 16;
+constexpr std::size_t kBalls = 8;
 constexpr double kBallRadius = 0.3;
 constexpr double kBallSpeed = 3;
+/// Metres and radians a second below which a body is let fall asleep.
+constexpr double kSlow = 0.1;
 
 }  // namespace
 
 SleepingProgram::SleepingProgram(std::size_t bodies, std::uint64_t seed) {
   dWorldSetAutoDisableFlag(world(), 1);
+  dWorldSetAutoDisableLinearThreshold(world(), kSlow);
+  dWorldSetAutoDisableAngularThreshold(world(), kSlow);
   add_plane(0, 0, 1, 0);
   add_stacks(bodies);
   add_balls(seed);

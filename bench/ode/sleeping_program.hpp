@@ -12,7 +12,8 @@ class SleepingProgram final : public BodyWorld {
   /// `bodies` counts the boxes; the balls come on top.
   SleepingProgram(std::size_t bodies, std::uint64_t seed);
 
-  [[nodiscard]] unsigned settling_steps() const override { return 20; }
+  /// From then on about as many boxes fall asleep as are hit.
+  [[nodiscard]] unsigned settling_steps() const override { return 200; }
 
  private:
   void act() override;

@@ -187,9 +187,9 @@ TEST(BenchOde, WholeProgramsRunAsWithStock) {
     const char* size;
     int geoms;
   };
-  // Five planes; sixteen balls and a plane; an arm of 42.
+  // Five planes; eight balls and a plane; an arm of 42.
   const Case cases[] = {{"pile", "300", 305},
-                        {"sleeping", "200", 217},
+                        {"sleeping", "200", 209},
                         {"planner", "40", 82},
                         {"clutter", "1000", 1042}};
   for (const auto& [program, size, geoms] : cases) {

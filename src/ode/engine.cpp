@@ -140,10 +140,29 @@ class EngineOf final : public Engine {
   void record_or_replay(Record& record, void* data, NearCallback* callback);
   void replay_record(Record& record, LiveCheck live, void* data, NearCallback* callback);
   void verify_pairs(const Record& record);
-  [[nodiscard]] bool answer_scan(dxSpace* scanned, dxGeom* other, bool scanned_first,
-                                 const Rerun& rerun, void* data, NearCallback* callback);
+  [[nodiscard]] bool answer_scan(dxSpace* scanned, dxGeom* other, bool scanned_first, void* data,
+                                 NearCallback* callback);
   [[nodiscard]] std::optional<std::vector<GeomPair>> scan(dxSpace* scanned, dxGeom* other,
                                                           bool scanned_first);
+  void verify_scan(dxSpace* scanned, std::span<const GeomPair> pairs, const Rerun& rerun);
+  [[nodiscard]] bool answer_spaces(dxSpace* space1, dxSpace* space2, void* data,
+                                   NearCallback* callback);
+  [[nodiscard]] std::vector<dxGeom*> list_of(dxSpace* space) const;
+  /// A quadtree's blocks are libode's secret.
+  [[nodiscard]] bool can_scan(dxSpace* space) const {
+    return kind_of(as_geom(space)) != geom_class::kQuadtreeSpace;
+  }
+  /// In all others libode's list is not the order that it gives geoms out in.
+  [[nodiscard]] bool can_list(dxSpace* space) const {
+    const int kind = kind_of(as_geom(space));
+    return kind == geom_class::kSimpleSpace || kind == geom_class::kHashSpace;
+  }
+  void stock_scan(dxSpace* scanned, dxGeom* other, bool scanned_first, void* data,
+                  NearCallback* callback) const {
+    dxGeom* const space = as_geom(scanned);
+    ode_.space_collide2(scanned_first ? space : other, scanned_first ? other : space, data,
+                        callback);
+  }
   [[nodiscard]] bool spheres_are_ours();
   int answer_contact(Frame<Real>& frame, int flags, ContactGeomOf<Real>& contact, int skip);
   void leave_to_stock(dxSpace* space, void* data, NearCallback* callback) {
@@ -538,7 +557,6 @@ template <class Real>
 std::optional<std::vector<GeomPair>> EngineOf<Real>::scan(dxSpace* scanned, dxGeom* other,
                                                           bool scanned_first) {
   const int kind = kind_of(as_geom(scanned)), other_kind = kind_of(other);
-  if (kind == geom_class::kQuadtreeSpace) return std::nullopt;
   if (other_kind >= geom_class::kFirstUser &&
       user_tests_[other_kind - geom_class::kFirstUser] != nullptr) {
     return std::nullopt;
@@ -558,9 +576,24 @@ std::optional<std::vector<GeomPair>> EngineOf<Real>::scan(dxSpace* scanned, dxGe
   return pairs;
 }
 
+/// Compares a scan with stock's.
 template <class Real>
-bool EngineOf<Real>::answer_scan(dxSpace* scanned, dxGeom* other, bool scanned_first,
-                                 const Rerun& rerun, void* data, NearCallback* callback) {
+void EngineOf<Real>::verify_scan(dxSpace* scanned, std::span<const GeomPair> pairs,
+                                 const Rerun& rerun) {
+  std::vector<GeomPair> stock;
+  rerun(&stock, &note_pair);
+  Statistics::add(statistics_.verified_pairs, stock.size());
+  const std::shared_ptr<Record> record = table_.hold(scanned);
+  const auto difference = compare_pairs<Real>(ode_, *record, pairs, stock);
+  if (difference && parts_.differs) parts_.differs("dSpaceCollide2: " + *difference, nullptr);
+}
+
+template <class Real>
+bool EngineOf<Real>::answer_scan(dxSpace* scanned, dxGeom* other, bool scanned_first, void* data,
+                                 NearCallback* callback) {
+  const Rerun rerun = [&](void* d, NearCallback* c) {
+    stock_scan(scanned, other, scanned_first, d, c);
+  };
   std::optional<std::vector<GeomPair>> pairs;
   try {
     pairs = scan(scanned, other, scanned_first);
@@ -568,7 +601,7 @@ bool EngineOf<Real>::answer_scan(dxSpace* scanned, dxGeom* other, bool scanned_f
     warn("out of memory; the call is left to libode");
   }
   if (!pairs) return false;
-  Statistics::add(statistics_.scanned, 1);
+  if (options_.verify) verify_scan(scanned, *pairs, rerun);
   Statistics::add(statistics_.pairs, pairs->size());
   if (pairs->empty()) return true;
   expect_frames();
@@ -576,6 +609,59 @@ bool EngineOf<Real>::answer_scan(dxSpace* scanned, dxGeom* other, bool scanned_f
   Replayer<Real>{ode_, user_tests_, data, callback}.replay(
       frame, *pairs, scanned_first ? LiveCheck::first : LiveCheck::second, rerun);
   Statistics::add(statistics_.stock_contacts, frame.stock_contacts);
+  return true;
+}
+
+/// The geoms of a simple or hash space in the order in which libode walks over them.
+template <class Real>
+std::vector<dxGeom*> EngineOf<Real>::list_of(dxSpace* space) const {
+  std::vector<dxGeom*> geoms(static_cast<std::size_t>(ode_.space_get_num_geoms(space)));
+  for (std::size_t k = 0; k < geoms.size(); ++k) {
+    geoms[k] = ode_.space_get_geom(space, static_cast<int>(k));
+  }
+  return geoms;
+}
+
+/// libode's loop over the space that has fewer geoms, each of which is compared with the other
+/// space. The looped space is not locked meanwhile: where callbacks change its list, libode goes on
+/// behind the geom at hand, wherever that is then. False when the call is libode's.
+template <class Real>
+bool EngineOf<Real>::answer_spaces(dxSpace* space1, dxSpace* space2, void* data,
+                                   NearCallback* callback) {
+  const int count1 = ode_.space_get_num_geoms(space1), count2 = ode_.space_get_num_geoms(space2);
+  dxSpace* const looped = count1 < count2 ? space1 : space2;
+  dxSpace* const scanned = looped == space1 ? space2 : space1;
+  if (std::max(count1, count2) < options_.min_geoms_scan || !can_scan(scanned) ||
+      !can_list(looped)) {
+    return false;
+  }
+  const bool scanned_first = scanned == space1;
+  try {
+    std::vector<dxGeom*> geoms = list_of(looped);
+    // dSpaceCollide2 would not take a space for a geom where the call has to be left to it.
+    if (std::any_of(geoms.begin(), geoms.end(),
+                    [&](dxGeom* geom) { return is_space_class(kind_of(geom)); })) {
+      return false;
+    }
+    (void)find_or_make(looped, kind_of(as_geom(looped)));
+    const std::shared_ptr<Record> list = table_.hold(looped);
+    for (std::size_t k = 0; k < geoms.size();) {
+      dxGeom* const geom = geoms[k];
+      const std::uint64_t version = list->version.load(std::memory_order_relaxed);
+      count_look();
+      if (!answer_scan(scanned, geom, scanned_first, data, callback)) {
+        stock_scan(scanned, geom, scanned_first, data, callback);
+      }
+      ++k;
+      if (list->version.load(std::memory_order_relaxed) == version) continue;
+      if (table_.hold(looped) != list) break;
+      geoms = list_of(looped);
+      const auto at = std::find(geoms.begin(), geoms.end(), geom);
+      k = at == geoms.end() ? geoms.size() : static_cast<std::size_t>(at - geoms.begin()) + 1;
+    }
+  } catch (const std::bad_alloc&) {
+    if (parts_.log) parts_.log(LogLevel::error, "out of memory; pairs of two spaces are missing");
+  }
   return true;
 }
 
@@ -592,23 +678,23 @@ void EngineOf<Real>::space_collide2(dxGeom* o1, dxGeom* o2, void* data, NearCall
     space_collide(space1, data, callback);
     return;
   }
-  if (space1 != nullptr && space2 != nullptr) {
+  const bool are_spaces = space1 != nullptr && space2 != nullptr;
+  if (are_spaces) {
     const int level1 = ode_.space_get_sublevel(space1), level2 = ode_.space_get_sublevel(space2);
     if (level1 > level2) space2 = nullptr;
     if (level1 < level2) space1 = nullptr;
   }
-  const Rerun rerun = [&](void* d, NearCallback* c) { ode_.space_collide2(o1, o2, d, c); };
   bool answered = false;
-  dxSpace* const scanned = space1 != nullptr ? space1 : space2;
-  if ((space1 == nullptr) != (space2 == nullptr) &&
-      ode_.space_get_num_geoms(scanned) >= options_.min_geoms_scan) {
-    answered =
-        answer_scan(scanned, space1 != nullptr ? o2 : o1, space1 != nullptr, rerun, data, callback);
+  if (space1 != nullptr && space2 != nullptr) {
+    answered = answer_spaces(space1, space2, data, callback);
+    if (answered) Statistics::add(statistics_.scanned_spaces, 1);
+  } else if (dxSpace* const scanned = space1 != nullptr ? space1 : space2;
+             scanned != nullptr && ode_.space_get_num_geoms(scanned) >= options_.min_geoms_scan &&
+             can_scan(scanned)) {
+    answered = answer_scan(scanned, space1 != nullptr ? o2 : o1, space1 != nullptr, data, callback);
   }
-  if (!answered) {
-    Statistics::add(statistics_.left_to_stock, 1);
-    ode_.space_collide2(o1, o2, data, callback);
-  }
+  Statistics::add(answered ? statistics_.scanned : statistics_.left_to_stock, 1);
+  if (!answered) ode_.space_collide2(o1, o2, data, callback);
 }
 
 /// Tried once, at the first pair of spheres: libode is initialised by then.

@@ -2,7 +2,7 @@
 
 // One replay of a space's pairs on the stack of a thread: which pair the callback is looking at,
 // and what has happened to the geoms meanwhile. dCollide has no argument that leads here, so the
-// innermost frame of each thread is thread-local: the only such state of the drop-in.
+// innermost frame of each thread is thread-local.
 
 #include <algorithm>
 #include <cstddef>

@@ -2,6 +2,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <utility>
 
 namespace harpoon::ode {
 namespace {
@@ -86,7 +87,7 @@ void Mirror<Real>::clear() {
   collide.clear();
   traits.clear();
   positions_.clear();
-  is_packed_ = false;
+  is_packed_ = was_asked_ = false;
   all_traits = 0;
   only_spheres = false;
 }
@@ -153,7 +154,7 @@ template <class Real>
 void Mirror<Real>::read_all(const LibodeOf<Real>& ode, dxSpace* space, int count,
                             const UserTests& tests) {
   resize(static_cast<std::size_t>(count));
-  is_packed_ = false;
+  is_packed_ = was_asked_ = false;
   std::uint32_t filled = 0;
   all_traits = 0;
   only_spheres = true;
@@ -288,6 +289,12 @@ const PackedBounds<Real>& Mirror<Real>::packed() {
   if (!is_packed_) packed_.pack(bounds);
   is_packed_ = true;
   return packed_;
+}
+
+template <class Real>
+const PackedBounds<Real>* Mirror<Real>::packed_if_asked_again() {
+  if (is_packed_ || std::exchange(was_asked_, true)) return &packed();
+  return nullptr;
 }
 
 template class Mirror<float>;

@@ -78,8 +78,8 @@ class Mirror {
 
   /// All bounds, for comparing one box with them: packed at the first call after a reading.
   const PackedBounds<Real>& packed();
-  /// Whether `packed` costs nothing.
-  [[nodiscard]] bool is_packed() const { return is_packed_; }
+  /// The same, but null at the first question after a reading.
+  const PackedBounds<Real>* packed_if_asked_again();
 
   /// Asks the memory for what libode's colliders read of a geom.
   void prefetch(std::uint32_t i) const {
@@ -98,9 +98,11 @@ class Mirror {
   std::vector<unsigned long> category, collide;
   std::vector<std::uint8_t> traits;
 
-  std::uint8_t all_traits = 0;  ///< or of `traits`
-  bool uniform_bits = true;     ///< every pair passes the category and collide bits
-  bool only_spheres = false;    ///< every geom is one
+  std::uint8_t all_traits = 0;      ///< or of `traits`
+  std::vector<std::uint32_t> near;  ///< scratch memory for those who ask `packed`
+
+  bool uniform_bits = true;   ///< every pair passes the category and collide bits
+  bool only_spheres = false;  ///< every geom is one
 
  private:
   void resize(std::size_t count);
@@ -118,6 +120,7 @@ class Mirror {
   std::vector<dxGeom*> left_;     ///< those of the vacated ones
   PackedBounds<Real> packed_;
   bool is_packed_ = false;
+  bool was_asked_ = false;  ///< for `packed`, since the reading
 };
 
 }  // namespace harpoon::ode

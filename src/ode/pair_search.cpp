@@ -63,9 +63,9 @@ void PairSearch<Real>::find_fresh(Mirror<Real>& mirror, const SlotChange& change
   const PackedBounds<Real>& packed = mirror.packed();
   fresh_.clear();
   for (const std::uint32_t slot : change.fresh) {
-    near_.clear();
-    packed.append_near(mirror.bounds[slot], near_);
-    for (const std::uint32_t other : near_) {
+    mirror.near.clear();
+    packed.append_near(mirror.bounds[slot], mirror.near);
+    for (const std::uint32_t other : mirror.near) {
       const bool is_new = other > slot || (other < slot && !change.is_fresh(other));
       if (is_new && overlap(slot, other) && mirror.counts(slot, other)) {
         fresh_.push_back({slot, other});

@@ -59,7 +59,6 @@ class PairSearch {
   CandidateFinder<Real> finder_;
   HashOrder<Real> hash_;
   RowOrder rows_;
-  std::vector<std::uint32_t> near_;
   std::vector<IndexPair> fresh_;
   std::vector<PlacedPair> placed_;
 };

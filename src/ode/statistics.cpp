@@ -8,12 +8,14 @@ std::string to_line(const Statistics& s, std::string_view device) {
   std::string line = fmt::format(
       "{} spaces; dSpaceCollide: {} searched, {} updated, {} unchanged, {} recorded, {} left to "
       "libode; "
-      "dSpaceCollide2: {} scanned; {} pairs; dCollide: {} from batches ({}), {} by libode; {:.3f} "
+      "dSpaceCollide2: {} scanned, {} of two spaces; {} pairs; dCollide: {} from batches ({}), {} "
+      "by libode; {:.3f} "
       "s "
       "inside, callbacks included",
       s.spaces.load(), s.searched.load(), s.updated.load(), s.unchanged.load(), s.recorded.load(),
-      s.left_to_stock.load(), s.scanned.load(), s.pairs.load(), s.batch_contacts.load(), device,
-      s.stock_contacts.load(), static_cast<double>(s.inside_ns.load()) * 1e-9);
+      s.left_to_stock.load(), s.scanned.load(), s.scanned_spaces.load(), s.pairs.load(),
+      s.batch_contacts.load(), device, s.stock_contacts.load(),
+      static_cast<double>(s.inside_ns.load()) * 1e-9);
   if (s.missed_by_stock.load() != 0) {
     line += fmt::format("; {} pairs that a stock hash space misses", s.missed_by_stock.load());
   }

@@ -18,6 +18,7 @@ struct Statistics {
   Counter unchanged{0};        ///< answered from the call before: nothing had changed
   Counter recorded{0};         ///< run by libode while its pairs were noted down
   Counter scanned{0};          ///< dSpaceCollide2 calls answered by Harpoon
+  Counter scanned_spaces{0};   ///< those of them whose arguments were two spaces
   Counter left_to_stock{0};    ///< small, nested, unknown: libode's own
   Counter pairs{0};            ///< near callbacks
   Counter batch_contacts{0};   ///< dCollide calls answered from a batch

@@ -47,11 +47,15 @@ WorldPlan plan_of(std::uint64_t seed, SpaceKind kind) {
   plan.user_class = random.below(5) == 0;
   plan.few_movers = random.below(3) == 0;
   plan.space_within = random.below(6) == 0;
+  plan.others = 4 + static_cast<std::uint32_t>(random.below(4) == 0 ? random.below(60) : 0);
+  if (random.below(8) == 0) plan.others = plan.geoms;
+  plan.hash_others = random.below(2) == 0;
   return plan;
 }
 
 struct Seen {
   std::uint64_t callbacks = 0, contacts = 0, toggled = 0, added = 0, removed = 0, nested = 0;
+  std::uint64_t between_spaces = 0, moved_between = 0;
   void take(const World& world) {
     callbacks += world.callbacks;
     contacts += world.contacts;
@@ -59,6 +63,8 @@ struct Seen {
     added += world.added;
     removed += world.removed;
     nested += world.nested;
+    between_spaces += world.between_spaces;
+    moved_between += world.moved_between;
   }
 };
 
@@ -70,7 +76,10 @@ bool run_scene(std::uint64_t seed, const WorldPlan& plan, Seen& seen) {
     stock.change();
     ours.change();
     for (World* world : {&stock, &ours}) {
-      if (step % 4 == 1) world->collide_with_others();
+      if (step % 4 == 1) {
+        world->collide_with_others();
+        world->change();
+      }
       world->collide();
       if (step % 3 == 0) world->collide_with_others();
     }
@@ -98,6 +107,8 @@ void run_scenes(SpaceKind kind) {
   EXPECT_GT(seen.added, kScenes);
   EXPECT_GT(seen.removed, kScenes);
   EXPECT_GT(seen.nested, kScenes);
+  EXPECT_GT(seen.between_spaces, 10 * kScenes);
+  EXPECT_GT(seen.moved_between, kScenes / 2);
   std::cout << kScenes << " scenes: " << seen.callbacks << " callbacks, " << seen.contacts
             << " contacts, " << seen.nested << " nested calls\n";
 }
@@ -120,7 +131,7 @@ TEST(DropInDeathTest, ScenesReachEveryWayToAnswer) {
   for (const SpaceKind kind : {SpaceKind::simple, SpaceKind::hash, SpaceKind::sap}) {
     EXPECT_EXIT(run_and_exit(kind), ::testing::ExitedWithCode(0),
                 "[1-9][0-9]+ searched, [1-9][0-9]{2,} updated, [1-9][0-9]+ unchanged.*"
-                "[1-9][0-9]{2,} scanned");
+                "[1-9][0-9]{2,} scanned, [1-9][0-9]+ of two spaces");
   }
   EXPECT_EXIT(run_and_exit(SpaceKind::quadtree), ::testing::ExitedWithCode(0),
               "[1-9][0-9]+ unchanged, [1-9][0-9]+ recorded");

@@ -22,7 +22,7 @@ WorldPlan plan_of(std::size_t thread) {
   // exchange the sanitizer does not see.
   plan.spheres_only = true;
   plan.keeps_geoms = true;
-  plan.two_spaces = false;
+  plan.others = 0;
   return plan;
 }
 

@@ -105,9 +105,9 @@ World::World(const StockOde& ode, const WorldPlan& plan, std::uint64_t seed)
     fill(number);
     dSpaceAdd(within_ != nullptr && number % 8 == 0 ? within_ : space_, slots_[number].geom);
   }
-  if (plan.two_spaces) {
-    others_ = dSimpleSpaceCreate(nullptr);
-    for (int k = 0; k < 4; ++k) {
+  if (plan.others != 0) {
+    others_ = plan.hash_others ? dHashSpaceCreate(nullptr) : dSimpleSpaceCreate(nullptr);
+    for (std::uint32_t k = 0; k < plan.others; ++k) {
       slots_.emplace_back();
       const auto number = static_cast<std::uint32_t>(slots_.size() - 1);
       fill(number);
@@ -316,6 +316,8 @@ void World::note_contacts(dGeomID o1, dGeomID o2, int flags) {
   // libode's collider for a cylinder and a box aborts when their axes are aligned.
   const int class1 = dGeomGetClass(o1), class2 = dGeomGetClass(o2);
   if (std::min(class1, class2) == dBoxClass && std::max(class1, class2) == dCylinderClass) return;
+  // So does that for boxes, where many of their corners fall together.
+  if (plan_.lattice && class1 == dBoxClass && class2 == dBoxClass) return;
   // And those for a ray and a sphere without extent, where the ray ends in it.
   const bool has_ray = class1 == dRayClass || class2 == dRayClass;
   for (const dGeomID geom : {o1, o2}) {
@@ -355,6 +357,7 @@ void World::on_near(dGeomID o1, dGeomID o2) {
                                               : slots_[choice.below(slots_.size())].geom;
     (choice.below(2) == 0 ? ode_.geom_disable : ode_.geom_enable)(geom);
   }
+  if (moves_others_ && choice.below(24) == 0) move_other(o1, o2, choice.bits());
   if (plan_.nested_calls && others_ != nullptr && choice.below(64) == 0) {
     ++nested;
     // A stock SAP space that is collided within its own callbacks after geoms were toggled goes on
@@ -371,21 +374,45 @@ void World::collide() {
   ode_.space_collide(space_, this, &near);
 }
 
+/// Moves a geom of the second space while that is walked over: a clean one comes to the front of
+/// the list, and libode does not come to it any more. The geom at hand, which libode would abort
+/// on, and those on bodies stay where they are.
+void World::move_other(dGeomID o1, dGeomID o2, std::uint64_t choice) {
+  const std::size_t number = first_other() + choice % plan_.others;
+  const dGeomID geom = slots_[number].geom;
+  if (geom == o1 || geom == o2 || dGeomGetBody(geom) != nullptr) return;
+  ++moved_between;
+  place(static_cast<std::uint32_t>(number));
+}
+
 void World::collide_with_others() {
   if (others_ == nullptr) return;
   ++calls_;
   in_call_ = 0;
-  const std::size_t first = slots_.size() - 4;
-  for (std::size_t k = first; k < slots_.size(); ++k) {
+  const bool spaces_first = random_.below(2) == 0;
+  if (spaces_first) collide_spaces();
+  const auto space = reinterpret_cast<dGeomID>(space_);
+  const std::size_t end = std::min(slots_.size(), first_other() + 4);
+  for (std::size_t k = first_other(); k < end; ++k) {
     const bool space_first = random_.below(2) == 0;
-    const auto space = reinterpret_cast<dGeomID>(space_);
     ode_.space_collide2(space_first ? space : slots_[k].geom, space_first ? slots_[k].geom : space,
                         this, &near);
   }
-  if (random_.below(4) == 0) {
-    ode_.space_collide2(reinterpret_cast<dGeomID>(others_), reinterpret_cast<dGeomID>(space_), this,
-                        &near);
-  }
+  if (!spaces_first) collide_spaces();
+}
+
+void World::collide_spaces() {
+  if (random_.below(3) != 0) return;
+  const auto space = reinterpret_cast<dGeomID>(space_), others = reinterpret_cast<dGeomID>(others_);
+  if (random_.below(2) == 0) dSpaceClean(others_);
+  const bool space_first = random_.below(2) == 0;
+  const int left = dSpaceGetNumGeoms(others_) - dSpaceGetNumGeoms(space_);
+  // In the other order of sizes libode walks over the first space and locks the second; where they
+  // are the same it walks over the second argument.
+  moves_others_ = left < 0 || (left == 0 && space_first);
+  ++between_spaces;
+  ode_.space_collide2(space_first ? space : others, space_first ? others : space, this, &near);
+  moves_others_ = false;
 }
 
 std::vector<std::uint64_t> World::take_trace() {

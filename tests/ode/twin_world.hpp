@@ -40,7 +40,8 @@ struct WorldPlan {
   bool nested_calls = false;
   bool user_class = false;
   bool keeps_geoms = false;   ///< none is made, destroyed or moved between bodies after the start
-  bool two_spaces = true;     ///< a second space with geoms to collide against the first
+  std::uint32_t others = 4;   ///< geoms in a second space to collide against the first; 0: none
+  bool hash_others = false;   ///< the second is a hash space, else a simple one
   bool few_movers = false;    ///< mostly nothing but a few geoms change, the same ones for a while
   bool all_enabled = false;   ///< nothing is disabled or of size zero
   bool space_within = false;  ///< some of the geoms are in a space that is a geom of the space
@@ -57,14 +58,15 @@ class World {
   void change();
   /// One dSpaceCollide with what the plan wants in callbacks.
   void collide();
-  /// dSpaceCollide2 of the second space's geoms against the space.
+  /// dSpaceCollide2 of the second space's geoms against the space, and of the two spaces.
   void collide_with_others();
 
   /// What callbacks saw since the last call: numbers of geoms and bits of contacts.
   std::vector<std::uint64_t> take_trace();
 
   // What happened, for tests that must not be vacuous.
-  std::uint64_t callbacks = 0, contacts = 0, toggled = 0, added = 0, removed = 0, nested = 0;
+  std::uint64_t callbacks = 0, contacts = 0, toggled = 0, added = 0, removed = 0, nested = 0,
+                between_spaces = 0, moved_between = 0;
 
  private:
   struct Slot {
@@ -81,6 +83,9 @@ class World {
   void place(std::uint32_t number);
   void change_one();
   void move_few();
+  void collide_spaces();
+  void move_other(dGeomID o1, dGeomID o2, std::uint64_t choice);
+  [[nodiscard]] std::size_t first_other() const { return slots_.size() - plan_.others; }
   double coordinate();
   double size();
   [[nodiscard]] std::uint64_t number_of(dGeomID geom) const;
@@ -95,6 +100,7 @@ class World {
   dSpaceID others_;
   dSpaceID within_ = nullptr;
   std::vector<std::uint32_t> movers_;
+  bool moves_others_ = false;  ///< callbacks may: the two spaces are being collided
   dTriMeshDataID mesh_;
   int user_class_ = -1;
   std::vector<Slot> slots_;

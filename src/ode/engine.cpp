@@ -10,7 +10,7 @@
 
 #include "ode/float_mode.hpp"
 #include "ode/frame.hpp"
-#include "ode/pair_search.hpp"
+#include "ode/refresher.hpp"
 #include "ode/replay.hpp"
 #include "ode/scan.hpp"
 #include "ode/space_table.hpp"
@@ -127,14 +127,10 @@ class EngineOf final : public Engine {
   Record* find_or_make(dxSpace* space, int kind);
   Record* put(dxSpace* space, std::shared_ptr<Record> record);
   void expect_frames();
-  void note_changes(Record& record);
-  void refresh_mirror(Record& record, bool in_collide);
-  void follow_moved(Record& record, bool in_collide);
-  [[nodiscard]] bool update_pairs(Record& record);
-  [[nodiscard]] bool refresh_pairs(Record& record);
-  Result<typename PairSearch<Real>::Found> find_pairs(Record& record);
-  [[nodiscard]] bool takes_over_sap(Record& record) const;
-  void name_strays(Record& record);
+  void note_changes(Record& record) {
+    count_look();
+    refresher_.note_changes(record);
+  }
   void intern_recorded(Record& record) const;
   [[nodiscard]] bool answer_in_order(Record& record, void* data, NearCallback* callback);
   void record_or_replay(Record& record, void* data, NearCallback* callback);
@@ -170,9 +166,6 @@ class EngineOf final : public Engine {
     if (options_.statistics) Statistics::add(statistics_.left_to_stock, 1);
     ode_.space_collide(space, data, callback);
   }
-  [[nodiscard]] bool asks_unknown_tests(const Mirror<Real>& mirror) const {
-    return !options_.changes_are_reported && (mirror.all_traits & kHasAabbTest) != 0;
-  }
   void warn(const std::string& line) const {
     if (parts_.log) parts_.log(LogLevel::warning, line);
   }
@@ -185,6 +178,7 @@ class EngineOf final : public Engine {
   std::atomic<bool> expects_frames_{false};
   std::atomic<std::uint64_t> looks_{1};  ///< how often what is known of spaces has been renewed
   UserTests user_tests_{};
+  const Refresher<Real> refresher_{ode_, options_, user_tests_, parts_.log, statistics_};
   ContactSource source_;
   enum class Agreement { unknown, yes, no };
   std::atomic<Agreement> spheres_{Agreement::unknown};
@@ -248,163 +242,6 @@ void EngineOf<Real>::expect_frames() {
   expects_frames_.store(true, std::memory_order_release);
 }
 
-/// Takes note of what was reported, or of everything where nothing is. Geoms that moved stay in
-/// `record.moved` until the mirror follows them.
-template <class Real>
-void EngineOf<Real>::note_changes(Record& record) {
-  count_look();
-  const int count = ode_.space_get_num_geoms(record.space);
-  const bool reported = record.changed.load(std::memory_order_relaxed) &&
-                        record.changed.exchange(false, std::memory_order_relaxed);
-  const bool widely = record.changed_widely.load(std::memory_order_relaxed) &&
-                      record.changed_widely.exchange(false, std::memory_order_relaxed);
-  const bool is_told = options_.changes_are_reported && count == record.count;
-  record.was_unchanged = !reported && is_told;
-  if (record.was_unchanged) return;
-  record.count = count;
-  record.recorded_valid = false;
-  std::sort(record.moved.begin(), record.moved.end());
-  record.moved.erase(std::unique(record.moved.begin(), record.moved.end()), record.moved.end());
-  if (widely || !is_told || !record.mirror_valid || !record.are_few(record.moved.size())) {
-    record.moved.clear();
-    record.mirror_valid = record.pairs_valid = false;
-  }
-}
-
-/// Brings the mirror up to date after a few geoms have moved, and the pairs with it when they are
-/// in use. What cannot be brought up to date is invalid afterwards.
-template <class Real>
-void EngineOf<Real>::follow_moved(Record& record, bool in_collide) {
-  const bool is_sap = record.kind == geom_class::kSapSpace;
-  // A SAP space is sorted once for each dSpaceCollide, as stock sorts it.
-  const bool with_pairs = record.pairs_valid && (is_sap ? in_collide : record.pairs_used);
-  record.mirror_valid = record.pairs_valid = false;
-  record.contacts.reset();
-  const bool follows = is_sap ? record.mirror.clean_and_update_array(
-                                    ode_, record.space, record.moved, user_tests_, record.change)
-                              : record.mirror.update_list(ode_, record.space, record.moved,
-                                                          user_tests_, record.change);
-  record.moved.clear();
-  if (!follows) return;
-  record.mirror_valid = true;
-  record.pairs_valid = with_pairs && update_pairs(record);
-  record.pairs_used = false;
-}
-
-template <class Real>
-bool EngineOf<Real>::update_pairs(Record& record) {
-  PairSearch<Real>& search = *record.search;
-  if (record.kind == geom_class::kSimpleSpace) {
-    return search.update_simple(record.mirror, record.change, record.pairs);
-  }
-  if (record.kind == geom_class::kSapSpace) {
-    return search.update_sap(record.mirror, record.change, *record.sap, record.pairs);
-  }
-  int min_level = 0, max_level = 0;
-  ode_.hash_space_get_levels(record.space, &min_level, &max_level);
-  const bool done = search.update_hash(record.mirror, record.change, min_level, max_level,
-                                       options_.policy, record.found, record.pairs);
-  if (done) Statistics::add(statistics_.missed_by_stock, record.found.missed_by_stock);
-  return done;
-}
-
-template <class Real>
-void EngineOf<Real>::refresh_mirror(Record& record, bool in_collide) {
-  if (record.mirror_valid && !record.moved.empty()) follow_moved(record, in_collide);
-  if (record.mirror_valid) return;
-  record.contacts.reset();
-  record.moved.clear();
-  record.expect_moves();
-  // A recorded sequence has its own numbers.
-  record.pairs_valid = false;
-  if (record.kind == geom_class::kSapSpace) {
-    record.mirror.clean_and_read(ode_, record.space, record.count, user_tests_);
-  } else {
-    record.mirror.read(ode_, record.space, record.count, user_tests_);
-  }
-  record.mirror_valid = true;
-}
-
-template <class Real>
-void EngineOf<Real>::name_strays(Record& record) {
-  const std::span<const std::uint8_t> stray = record.search->stray();
-  for (std::uint32_t i = 0; i < record.mirror.size(); ++i) {
-    dxGeom* const geom = record.mirror.geoms[i];
-    if (stray[i] == 0 ||
-        std::find(record.named.begin(), record.named.end(), geom) != record.named.end()) {
-      continue;
-    }
-    record.named.push_back(geom);
-    const Real* const box = record.mirror.bounds[i].v;
-    warn(fmt::format(
-        "geom {} of hash space {} lies where libode would abort: x {} to {}, y {} to "
-        "{}, z {} to {}; {}",
-        fmt::ptr(geom), fmt::ptr(record.space), box[0], box[1], box[2], box[3], box[4], box[5],
-        (record.mirror.traits[i] & kIsNan) != 0 ? "it touches nothing"
-                                                : "it is compared with every geom"));
-  }
-}
-
-/// While a SAP space is small libode sorts it, and only libode knows in which order. That order is
-/// forgotten when the number of sorted geoms changes: with more than there ever were, it has.
-template <class Real>
-bool EngineOf<Real>::takes_over_sap(Record& record) const {
-  record.sap_is_ours = record.sap_is_ours || record.sap->sorted_geoms(record.mirror) >=
-                                                 static_cast<std::size_t>(options_.min_geoms_sap);
-  return record.sap_is_ours;
-}
-
-template <class Real>
-Result<typename PairSearch<Real>::Found> EngineOf<Real>::find_pairs(Record& record) {
-  if (record.kind == geom_class::kSimpleSpace) {
-    return record.search->find_simple(record.mirror, record.pairs);
-  }
-  if (record.kind == geom_class::kSapSpace) {
-    return record.search->find_sap(record.mirror, *record.sap, record.pairs);
-  }
-  int min_level = 0, max_level = 0;
-  ode_.hash_space_get_levels(record.space, &min_level, &max_level);
-  return record.search->find_hash(record.mirror, min_level, max_level, options_.policy,
-                                  record.pairs);
-}
-
-/// False when the call is libode's after all.
-template <class Real>
-bool EngineOf<Real>::refresh_pairs(Record& record) {
-  Statistics::Counter* found_by = &statistics_.unchanged;
-  if (!record.moved.empty()) found_by = &statistics_.updated;
-  refresh_mirror(record, true);
-  if (record.pairs_valid) {
-    Statistics::add(*found_by, 1);
-    return true;
-  }
-  if (asks_unknown_tests(record.mirror)) return false;
-  if (record.kind == geom_class::kSapSpace && !takes_over_sap(record)) return false;
-  record.contacts.reset();
-  if (!record.search) {
-    Result<PairSearch<Real>> search = PairSearch<Real>::make();
-    if (!search) {
-      warn(search.error().message);
-      return false;
-    }
-    record.search = std::make_unique<PairSearch<Real>>(std::move(*search));
-  }
-  const auto found = find_pairs(record);
-  if (!found) {
-    warn(found.error().message);
-    return false;
-  }
-  record.found = *found;
-  if (found->stock_aborts) {
-    if (options_.policy == Policy::strict) return false;
-    name_strays(record);
-  }
-  Statistics::add(statistics_.searched, 1);
-  Statistics::add(statistics_.missed_by_stock, found->missed_by_stock);
-  record.pairs_valid = true;
-  return true;
-}
-
 template <class Real>
 void EngineOf<Real>::verify_pairs(const Record& record) {
   // Where stock aborts or pairs were added to stock's there is nothing to compare with.
@@ -457,7 +294,7 @@ bool EngineOf<Real>::answer_in_order(Record& record, void* data, NearCallback* c
   if (entry.alone()) {
     note_changes(record);
     try {
-      if (!refresh_pairs(record)) return false;
+      if (!refresher_.refresh_pairs(record)) return false;
     } catch (const std::bad_alloc&) {
       warn("out of memory; the call is left to libode");
       return false;
@@ -566,7 +403,7 @@ std::optional<std::vector<GeomPair>> EngineOf<Real>::scan(dxSpace* scanned, dxGe
   if (!entry.entered()) return std::nullopt;
   if (entry.alone()) {
     note_changes(record);
-    refresh_mirror(record, false);
+    refresher_.refresh_mirror(record, false);
   } else if (record.changed.load(std::memory_order_relaxed) || !record.mirror_valid) {
     return std::nullopt;
   }

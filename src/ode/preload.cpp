@@ -90,12 +90,12 @@ namespace harpoon::ode {
 
 void watch_moves() {
   stock_geom_moved.store(libode().geom_moved, std::memory_order_relaxed);
-  next_geom_moved.store(&watch_move, std::memory_order_relaxed);
+  next_geom_moved.store(&watch_move, std::memory_order_release);
 }
 
 void watch_contacts() {
   stock_collide.store(libode().collide, std::memory_order_relaxed);
-  next_collide.store(&watch_collide, std::memory_order_relaxed);
+  next_collide.store(&watch_collide, std::memory_order_release);
 }
 
 }  // namespace harpoon::ode
@@ -115,11 +115,11 @@ HARPOON_API void dSpaceCollide2(dxGeom* o1, dxGeom* o2, void* data, NearCallback
 }
 
 HARPOON_API int dCollide(dxGeom* o1, dxGeom* o2, int flags, void* contact, int skip) {
-  return next_collide.load(std::memory_order_relaxed)(o1, o2, flags, contact, skip);
+  return next_collide.load(std::memory_order_acquire)(o1, o2, flags, contact, skip);
 }
 
 HARPOON_API void dGeomMoved(dxGeom* geom) {
-  next_geom_moved.load(std::memory_order_relaxed)(geom);
+  next_geom_moved.load(std::memory_order_acquire)(geom);
 }
 
 HARPOON_API void dGeomDestroy(dxGeom* geom) {

@@ -11,7 +11,7 @@
 namespace harpoon::test {
 namespace {
 
-constexpr std::size_t kThreads = 4;
+constexpr std::size_t kThreads = 8;
 constexpr int kSteps = 40;
 
 WorldPlan plan_of(std::size_t thread) {
@@ -22,6 +22,7 @@ WorldPlan plan_of(std::size_t thread) {
   // exchange the sanitizer does not see.
   plan.spheres_only = true;
   plan.keeps_geoms = true;
+  plan.few_movers = thread >= 4;
   plan.others = 0;
   return plan;
 }

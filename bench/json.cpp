@@ -14,6 +14,12 @@ Json machine_json(const Machine& machine) {
           {"harpoon", machine.harpoon}};
 }
 
+Json head_json(const Machine& machine, const std::string& commit, const std::string& date,
+               const std::string& command) {
+  return {
+      {"machine", machine_json(machine)}, {"commit", commit}, {"date", date}, {"command", command}};
+}
+
 Json row_json(const ResultRow& row) {
   const Measurement& m = row.measured;
   const auto pairs = static_cast<double>(m.count);

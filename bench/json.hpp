@@ -12,6 +12,9 @@ namespace harpoon::bench {
 using Json = nlohmann::ordered_json;
 
 Json machine_json(const Machine& machine);
+/// What every document of results begins with: machine, commit, date and command.
+Json head_json(const Machine& machine, const std::string& commit, const std::string& date,
+               const std::string& command);
 Json row_json(const ResultRow& row);
 
 }  // namespace harpoon::bench

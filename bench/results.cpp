@@ -83,14 +83,11 @@ std::string to_json(const ResultSet& results) {
                       {"non_temporal_gb_per_s", copy.non_temporal_gb_per_s},
                       {"best_gb_per_s", copy.best_gb_per_s()}});
   }
-  const Json root = {{"machine", machine_json(results.machine)},
-                     {"commit", results.commit},
-                     {"date", results.date},
-                     {"command", results.command},
-                     {"timer_overhead_ns", results.timer_overhead_ns},
-                     {"results", rows},
-                     {"copy_bandwidth", copies},
-                     {"notes", results.notes}};
+  Json root = head_json(results.machine, results.commit, results.date, results.command);
+  root["timer_overhead_ns"] = results.timer_overhead_ns;
+  root["results"] = std::move(rows);
+  root["copy_bandwidth"] = std::move(copies);
+  root["notes"] = results.notes;
   return root.dump(2) + "\n";
 }
 

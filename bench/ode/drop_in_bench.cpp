@@ -121,13 +121,10 @@ std::string drop_in_json(const DropInPlan& plan, const DropInOutcome& outcome,
                        {"identical", row.identical},
                        {"samples", row.harpoon_ms.samples}});
   }
-  const Json out = {{"machine", machine_json(machine)},
-                    {"commit", build_commit()},
-                    {"date", timestamp()},
-                    {"command", command},
-                    {"seed", plan.seed},
-                    {"notes", outcome.notes},
-                    {"results", results}};
+  Json out = head_json(machine, build_commit(), timestamp(), command);
+  out["seed"] = plan.seed;
+  out["notes"] = outcome.notes;
+  out["results"] = std::move(results);
   return out.dump(2) + "\n";
 }
 

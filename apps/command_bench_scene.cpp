@@ -53,16 +53,21 @@ std::vector<std::string> peers_of(const std::vector<std::string>& names) {
   return peers;
 }
 
+/// A still scene's frame takes nanoseconds.
+std::string milliseconds(double ms) {
+  return fmt::format("{:.{}f}", ms, ms < 0.01 ? 6 : 3);
+}
+
 std::string describe(const Terminal& terminal, const bench::SceneOutcome& outcome) {
   std::vector<std::vector<Cell>> rows;
   for (const bench::SceneRow& row : outcome.rows) {
     rows.push_back({row.engine, row.precision, fmt::format("{}", row.threads),
-                    fmt::format("{:.3f}", row.ms.median), fmt::format("{:.3f}", row.ms.min),
+                    milliseconds(row.ms.median), milliseconds(row.ms.min),
                     fmt::format("{:.3f}", row.update_ms), fmt::format("{:.3f}", row.broad_ms),
                     fmt::format("{:.3f}", row.narrow_ms), fmt::format("{}", row.pairs),
                     fmt::format("{}", row.contacts),
                     fmt::format("{:.2f}", static_cast<double>(row.bytes_floor) * 1e-6),
-                    fmt::format("{:.2f}", row.speedup)});
+                    fmt::format("{:.{}f}", row.speedup, row.speedup < 0.01 ? 6 : 2)});
   }
   std::string text = format_table(terminal,
                                   {{"engine"},
@@ -199,6 +204,11 @@ void add_bench_scene(CLI::App& bench, Context& context) {
   scene->footer(
       "Every body moves by 2 % of its radius per frame. Figures are medians over frames in\n"
       "milliseconds; the floor is what must be read and written at least.\n\n"
+      "  harpoon                   detect, without history\n"
+      "  harpoon scene             a Scene, all bodies set in every frame\n"
+      "  harpoon scene, still      a Scene in which nothing moves: detect alone\n"
+      "  harpoon scene, set again  a Scene whose bodies are all set where they are: compared\n"
+      "  harpoon bounds            overlap_pairs on the bodies' bounds\n\n"
       "Examples:\n"
       "  harpoon bench scene --kind packed --against bullet,embree\n"
       "  harpoon bench scene --bodies 1000000 --threads 2 --json scene.json\n"

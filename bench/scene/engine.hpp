@@ -3,6 +3,7 @@
 // One collision engine in the scene benchmark: given the bodies of a frame, it finds all contacts
 // and says how long its steps took.
 
+#include <array>
 #include <cstdint>
 #include <memory>
 #include <span>
@@ -38,6 +39,14 @@ class SceneEngine {
   [[nodiscard]] virtual unsigned threads() const = 0;
   /// False where `contacts` says something else than how many spheres touch now.
   [[nodiscard]] virtual bool counts_contacts() const { return true; }
+  /// Bytes that a frame must move at least: each body read and each contact written once, where an
+  /// engine does not say otherwise.
+  [[nodiscard]] virtual std::uint64_t floor_bytes(std::uint64_t bodies,
+                                                  std::uint64_t contacts) const {
+    const bool f64 = precision() == "f64";
+    return bodies * (f64 ? sizeof(SphereF64) : sizeof(Sphere)) +
+           contacts * (f64 ? sizeof(BodyContactF64) : sizeof(BodyContact));
+  }
   /// `spheres` are always the same bodies, moved.
   virtual Result<EngineFrame> frame(std::span<const Sphere> spheres) = 0;
 };
@@ -46,9 +55,14 @@ class SceneEngine {
 enum class HarpoonMode : std::uint8_t {
   detect,  ///< stateless, a kept workspace
   scene,   ///< a persistent scene
-  still,   ///< a persistent scene whose bodies are set again where they are
+  still,   ///< a persistent scene in which nothing moves: no body is set, `detect` alone
+  again,   ///< the same with all bodies set again where they are, which has to be found out
   bounds,  ///< overlapping pairs of the spheres' bounds
 };
+/// In the order of their rows.
+inline constexpr std::array kHarpoonModes = {HarpoonMode::detect, HarpoonMode::scene,
+                                             HarpoonMode::still, HarpoonMode::again,
+                                             HarpoonMode::bounds};
 std::unique_ptr<SceneEngine> make_harpoon_engine(HarpoonMode mode, bool f64, unsigned threads);
 
 /// The peers; each on one thread. Null where this build has not got it.

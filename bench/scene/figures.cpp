@@ -22,17 +22,19 @@ double ns_per_body(double ms, const ScalingPoint& point) {
 
 std::string sizes_table(const std::vector<ScalingPoint>& points, WorldKind kind) {
   std::string text =
-      "| bodies | contacts | `detect` ms | ns a body | `Scene` ms | set again, ms | "
-      "`overlap_pairs` "
-      "ms |\n| ---: | ---: | ---: | ---: | ---: | ---: | ---: |\n";
+      "| bodies | contacts | `detect` ms | ns a body | `Scene` ms | still, ms | set again, ms | "
+      "set again, GB/s | `overlap_pairs` ms |\n"
+      "| ---: | ---: | ---: | ---: | ---: | ---: | ---: | ---: | ---: |\n";
   for (const ScalingPoint& p : points) {
     if (p.plan.kind != kind) continue;
     const SceneRow& detect = row_of(p, HarpoonMode::detect);
-    text += fmt::format("| {} | {} | {:.3f} | {:.1f} | {:.3f} | {:.4f} | {:.3f} |\n", p.plan.bodies,
-                        detect.contacts, detect.ms.median, ns_per_body(detect.ms.median, p),
-                        row_of(p, HarpoonMode::scene).ms.median,
-                        row_of(p, HarpoonMode::still).ms.median,
-                        row_of(p, HarpoonMode::bounds).ms.median);
+    const SceneRow& again = row_of(p, HarpoonMode::again);
+    text += fmt::format(
+        "| {} | {} | {:.3f} | {:.1f} | {:.3f} | {:.6f} | {:.4f} | {:.1f} | {:.3f} |\n",
+        p.plan.bodies, detect.contacts, detect.ms.median, ns_per_body(detect.ms.median, p),
+        row_of(p, HarpoonMode::scene).ms.median, row_of(p, HarpoonMode::still).ms.median,
+        again.ms.median, static_cast<double>(again.bytes_floor) * 1e-6 / again.ms.median,
+        row_of(p, HarpoonMode::bounds).ms.median);
   }
   return text;
 }
@@ -89,10 +91,9 @@ std::string scaling_markdown(const std::vector<ScalingPoint>& points, const Mach
   const ScenePlan& first = points.front().plan;
   text += fmt::format(
       "Written by\n\n    {}\n\nat commit {}: {}, {} cores, {}; {} thread{}, {}. Medians over "
-      "frames "
-      "in\nwhich every body moves by 2 % of its radius; \"set again\" is a frame of a `Scene` "
-      "whose "
-      "bodies are\nset where they are. The reasons are in [scene.md](scene.md).\n\n",
+      "frames in\nwhich every body moves by 2 % of its radius. \"still\" is a frame of a `Scene` "
+      "in which nothing\nmoves; \"set again\" the same where the caller hands in all bodies anew, "
+      "with the rate at which\nthey are compared. The reasons are in [scene.md](scene.md).\n\n",
       command, build_commit(), machine.cpu, machine.cores, machine.instruction_set, first.threads,
       first.threads == 1 ? "" : "s", first.f64 ? "double" : "float");
   text += fmt::format("![Nanoseconds a body over the number of bodies]({})\n", plot);

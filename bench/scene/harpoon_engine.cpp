@@ -26,6 +26,8 @@ class HarpoonEngine final : public SceneEngine {
         return "harpoon scene";
       case HarpoonMode::still:
         return "harpoon scene, still";
+      case HarpoonMode::again:
+        return "harpoon scene, set again";
       case HarpoonMode::bounds:
         break;
     }
@@ -39,10 +41,19 @@ class HarpoonEngine final : public SceneEngine {
     return mode_ == HarpoonMode::detect || mode_ == HarpoonMode::scene;
   }
 
+  [[nodiscard]] std::uint64_t floor_bytes(std::uint64_t bodies,
+                                          std::uint64_t contacts) const override {
+    if (mode_ == HarpoonMode::still) return 0;
+    // The caller's bodies and the scene's.
+    if (mode_ == HarpoonMode::again) return 2 * bodies * sizeof(SphereOf<Real>);
+    return SceneEngine::floor_bytes(bodies, contacts);
+  }
+
   Result<EngineFrame> frame(std::span<const Sphere> spheres) override {
     if (!workspace_) return workspace_.error();
     if (!scene_) return scene_.error();
-    if (mode_ != HarpoonMode::still || spheres_.empty()) {
+    const bool first = spheres_.empty();
+    if (first || (mode_ != HarpoonMode::still && mode_ != HarpoonMode::again)) {
       spheres_.clear();
       for (const Sphere& s : spheres) spheres_.push_back({s.x, s.y, s.z, s.r});
     }
@@ -54,7 +65,8 @@ class HarpoonEngine final : public SceneEngine {
       }
       return bounds_frame();
     }
-    return mode_ == HarpoonMode::detect ? detect_frame() : scene_frame();
+    if (mode_ == HarpoonMode::detect) return detect_frame();
+    return scene_frame(mode_ != HarpoonMode::still || first);
   }
 
  private:
@@ -100,10 +112,12 @@ class HarpoonEngine final : public SceneEngine {
     return f;
   }
 
-  Result<EngineFrame> scene_frame() {
+  Result<EngineFrame> scene_frame(bool set) {
     const BodiesOf<Real> bodies{std::span<const SphereOf<Real>>(spheres_)};
     const double begin = now_ns();
-    if (auto error = scene_->set_bodies(bodies)) return *std::move(error);
+    if (set) {
+      if (auto error = scene_->set_bodies(bodies)) return *std::move(error);
+    }
     const double moved = now_ns();
     const auto frame = scene_->detect();
     const double end = now_ns();

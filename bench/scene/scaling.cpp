@@ -62,16 +62,8 @@ std::string scaling_json(const ScalingPlan& plan, const std::vector<ScalingPoint
     counts_agree = counts_agree && point.outcome.counts_agree;
     for (Json& row : scene_results(point.plan, point.outcome)) results.push_back(std::move(row));
   }
-  const Json out = {{"machine", machine_json(machine)},
-                    {"commit", build_commit()},
-                    {"date", timestamp()},
-                    {"command", command},
-                    {"frames", plan.frames},
-                    {"seed", plan.seed},
-                    {"counts_agree", counts_agree},
-                    {"notes", Json::array()},
-                    {"results", std::move(results)}};
-  return out.dump(2) + "\n";
+  return scene_document({plan.frames, plan.seed, counts_agree, {}}, std::move(results), machine,
+                        command);
 }
 
 }  // namespace harpoon::bench

@@ -47,8 +47,7 @@ void add_peer(const std::string& name, std::span<const Sphere> spheres, Engines&
 Engines make_engines(const ScenePlan& plan, std::span<const Sphere> spheres,
                      std::vector<std::string>& notes) {
   Engines engines;
-  for (const HarpoonMode mode :
-       {HarpoonMode::detect, HarpoonMode::scene, HarpoonMode::still, HarpoonMode::bounds}) {
+  for (const HarpoonMode mode : kHarpoonModes) {
     engines.push_back(make_harpoon_engine(mode, plan.f64, plan.threads));
   }
   for (const std::string& name : plan.against) add_peer(name, spheres, engines, notes);
@@ -86,9 +85,7 @@ SceneRow to_row(const SceneEngine& engine, const Record& record, std::size_t bod
   }
   row.pairs = record.last.pairs;
   row.contacts = record.last.contacts;
-  const bool f64 = row.precision == "f64";
-  row.bytes_floor = bodies * (f64 ? sizeof(SphereF64) : sizeof(Sphere)) +
-                    row.contacts * (f64 ? sizeof(BodyContactF64) : sizeof(BodyContact));
+  row.bytes_floor = engine.floor_bytes(bodies, row.contacts);
   return row;
 }
 
@@ -173,18 +170,21 @@ Json scene_results(const ScenePlan& plan, const SceneOutcome& outcome) {
   return results;
 }
 
+std::string scene_document(const SceneSummary& summary, Json results, const Machine& machine,
+                           const std::string& command) {
+  Json out = head_json(machine, build_commit(), timestamp(), command);
+  out["frames"] = summary.frames;
+  out["seed"] = summary.seed;
+  out["counts_agree"] = summary.counts_agree;
+  out["notes"] = summary.notes;
+  out["results"] = std::move(results);
+  return out.dump(2) + "\n";
+}
+
 std::string scene_json(const ScenePlan& plan, const SceneOutcome& outcome, const Machine& machine,
                        const std::string& command) {
-  const Json out = {{"machine", machine_json(machine)},
-                    {"commit", build_commit()},
-                    {"date", timestamp()},
-                    {"command", command},
-                    {"frames", plan.frames},
-                    {"seed", plan.seed},
-                    {"counts_agree", outcome.counts_agree},
-                    {"notes", outcome.notes},
-                    {"results", scene_results(plan, outcome)}};
-  return out.dump(2) + "\n";
+  return scene_document({plan.frames, plan.seed, outcome.counts_agree, outcome.notes},
+                        scene_results(plan, outcome), machine, command);
 }
 
 }  // namespace harpoon::bench

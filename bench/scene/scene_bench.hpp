@@ -40,7 +40,7 @@ struct SceneRow {
   Summary ms;                                         ///< of a frame
   double update_ms = 0, broad_ms = 0, narrow_ms = 0;  ///< medians
   std::uint64_t pairs = 0, contacts = 0;              ///< of the last frame
-  /// Bytes that any engine must move: each body read, each contact written, once.
+  /// Bytes that must be moved at least; see SceneEngine::floor_bytes.
   std::uint64_t bytes_floor = 0;
   StageMs stages;      ///< medians; all zero but for Harpoon's stateless calls
   double speedup = 0;  ///< of Harpoon's stateless call over this row: ratio of medians
@@ -59,7 +59,19 @@ Result<SceneOutcome> run_scene(const ScenePlan& plan, const std::function<void(d
 /// The elements of `results` for a plan's outcome.
 Json scene_results(const ScenePlan& plan, const SceneOutcome& outcome);
 
+/// What a document of results says beside them.
+struct SceneSummary {
+  unsigned frames = 0;
+  std::uint64_t seed = 0;
+  bool counts_agree = true;
+  std::vector<std::string> notes;
+};
+
 /// The JSON object documented in docs/scene.md, indented, with a final newline.
+std::string scene_document(const SceneSummary& summary, Json results, const Machine& machine,
+                           const std::string& command);
+
+/// The document of one run.
 std::string scene_json(const ScenePlan& plan, const SceneOutcome& outcome, const Machine& machine,
                        const std::string& command);
 

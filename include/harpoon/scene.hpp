@@ -206,7 +206,8 @@ HARPOON_API Result<DetectReport> count_contacts(Workspace& workspace,
 /// All pairs g1 < g2 of boxes that overlap and pass the filters, written to the front of `out`;
 /// exact in both precisions. Boxes with a NaN or a min beyond its max take part in nothing and are
 /// listed in `excluded`. `contacts` of the report is the number of pairs. A few boxes that are
-/// infinite or huge beside the rest cost one pass over all others each. Errors as `detect`.
+/// infinite or huge beside the rest cost one pass over all others each; where most boxes are so
+/// along the same one or two axes, they are told apart by the others. Errors as `detect`.
 HARPOON_API Result<DetectReport> overlap_pairs(Workspace& workspace, const Bounds& boxes,
                                                std::span<IndexPair> out,
                                                ContactOrder order = ContactOrder::space) noexcept;
@@ -253,7 +254,9 @@ class HARPOON_API SceneOf {
   ~SceneOf();
 
   /// Makes the scene's bodies those of the view, ids and filters included: the way to move all of
-  /// them at once. Errors: as `detect`; then the scene is as before, or empty on out_of_memory.
+  /// them at once. Errors: as `detect`; then the scene is as before, or empty on out_of_memory and
+  /// executor_failed. Where nothing has moved, call nothing: to find that out for all of them costs
+  /// a comparison of their memory.
   std::optional<Error> set_bodies(const BodiesOf<Real>& bodies) noexcept;
 
   /// Adds a body and returns its id. Errors: out_of_memory, batch_too_large.

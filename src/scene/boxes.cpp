@@ -3,6 +3,7 @@
 #include <algorithm>
 #include <array>
 #include <cmath>
+#include <functional>
 #include <limits>
 #include <type_traits>
 
@@ -25,10 +26,20 @@ constexpr double kFarRadii = sizeof(Cull) == sizeof(float) ? 0x1p12 : 0x1p27;
 constexpr std::size_t kMaxBeyondFloat = 16;
 /// Boxes whose corners make the middle of the world.
 constexpr std::size_t kSamples = 31;
+/// Boxes that decide which axes the grid has.
+constexpr std::size_t kShapeSamples = 64;
+/// A box is long when its longest side is this many times its shortest one.
+constexpr double kLong = 8;
+/// Unless one in so many of the sampled boxes is long, the grid has all axes.
+constexpr std::size_t kLongPart = 4;
+/// A grid that ignores an axis more has to save this many times the tests.
+constexpr double kWorthAnAxis = 2;
+/// Sides of boxes over which partners are looked for along an axis.
+constexpr double kSidesSearched = 3;
 /// Largest loss of a coordinate in float, as a part of the radius, that culling puts up with.
 constexpr double kMaxRelativeLoss = 0.02;
-/// Below this many boxes a pass is not shared between threads.
-constexpr std::size_t kTaskBoxes = 16384;
+/// Fewest boxes of a piece of work.
+constexpr std::size_t kPieceBoxes = 8192;
 
 Error out_of_memory() {
   return {Errc::out_of_memory, "out of memory"};
@@ -44,15 +55,15 @@ template <class Real, class Cull>
 struct BoxMap {
   std::array<Real, 3> origin = {0, 0, 0};
 
-  [[nodiscard]] Cull operator()(Real value, int axis) const noexcept {
+  [[nodiscard]] Cull operator()(Real value, std::size_t axis) const noexcept {
     if constexpr (sizeof(Cull) < sizeof(Real)) {
-      return static_cast<Cull>(value - origin[static_cast<std::size_t>(axis)]);
+      return static_cast<Cull>(value - origin[axis]);
     } else {
       return static_cast<Cull>(value);
     }
   }
   /// The same for boxes that may be infinite.
-  [[nodiscard]] Cull clamped(Real value, int axis) const noexcept {
+  [[nodiscard]] Cull clamped(Real value, std::size_t axis) const noexcept {
     constexpr Cull kMost = std::numeric_limits<Cull>::max();
     return std::clamp((*this)(value, axis), -kMost, kMost);
   }
@@ -80,13 +91,89 @@ auto middle_of(std::size_t count, const At& at) noexcept {
   return middle;
 }
 
+/// A sample of boxes, by which the axes of the grid are chosen.
+template <class Real>
+class ShapeSample {
+ public:
+  explicit ShapeSample(const BoxSource<Real>& source) noexcept {
+    const std::size_t step = std::max<std::size_t>(1, source.count / kShapeSamples);
+    for (std::size_t i = 0; i < source.count && count_ < kShapeSamples; i += step) {
+      if (proper(source[i])) add(source[i]);
+    }
+  }
+
+  /// Which axes the grid ignores, at most two: those without which boxes have so few others near
+  /// them along the rest that it pays.
+  [[nodiscard]] std::array<bool, 3> ignored_axes() const noexcept {
+    std::array<bool, 3> best = {false, false, false};
+    if (kLongPart * long_ < count_ || count_ == 0) return best;
+    double least = tests(best);
+    for (const unsigned axes : {1U, 2U, 4U, 3U, 5U, 6U}) {
+      const std::array<bool, 3> ignored = {(axes & 1) != 0, (axes & 2) != 0, (axes & 4) != 0};
+      const double cost = tests(ignored);
+      if (kWorthAnAxis * cost < least) {
+        least = cost;
+        best = ignored;
+      }
+    }
+    return best;
+  }
+
+ private:
+  void add(const Real* box) noexcept {
+    std::array<double, 3>& sides = sides_[count_++];
+    for (std::size_t axis = 0; axis < 3; ++axis) {
+      const auto low = static_cast<double>(box[2 * axis]);
+      // Not a number where both ends are the same infinity.
+      const double side = static_cast<double>(box[2 * axis + 1]) - low;
+      sides[axis] = side >= 0 ? side : std::numeric_limits<double>::infinity();
+      if (!std::isfinite(low)) continue;
+      low_[axis] = std::min(low_[axis], low);
+      high_[axis] = std::max(high_[axis], low);
+    }
+    const auto [shortest, longest] = std::minmax_element(sides.begin(), sides.end());
+    if (*longest > kLong * *shortest) ++long_;
+  }
+
+  /// The part of all boxes that one of them is tested against, on average.
+  [[nodiscard]] double tests(const std::array<bool, 3>& ignored) const noexcept {
+    double sum = 0;
+    for (std::size_t k = 0; k < count_; ++k) {
+      double longest = 0;
+      for (std::size_t axis = 0; axis < 3; ++axis) {
+        if (!ignored[axis]) longest = std::max(longest, sides_[k][axis]);
+      }
+      double share = 1;
+      for (std::size_t axis = 0; axis < 3; ++axis) {
+        const double extent = high_[axis] - low_[axis];
+        const double searched = kSidesSearched * longest;
+        if (!ignored[axis] && searched < extent) share *= searched / extent;
+      }
+      sum += share;
+    }
+    return sum / static_cast<double>(count_);
+  }
+
+  static constexpr double kInfinity = std::numeric_limits<double>::infinity();
+  std::array<std::array<double, 3>, kShapeSamples> sides_;
+  std::array<double, 3> low_ = {kInfinity, kInfinity, kInfinity};
+  std::array<double, 3> high_ = {-kInfinity, -kInfinity, -kInfinity};
+  std::size_t count_ = 0;
+  std::size_t long_ = 0;
+};
+
 /// One ordering under way.
 template <class Real, class Cull>
 class BoxSorter {
  public:
   BoxSorter(const Means& means, const BoxSource<Real>& source, BoxMemory& memory,
             OrderMemory& order_memory, OrderedBoxes<Real, Cull>& out)
-      : means_(means), source_(source), memory_(memory), order_memory_(order_memory), out_(out) {
+      : means_(means),
+        source_(source),
+        memory_(memory),
+        order_memory_(order_memory),
+        out_(out),
+        ignored_(ShapeSample<Real>(source).ignored_axes()) {
     if constexpr (sizeof(Cull) < sizeof(Real)) {
       map_.origin = middle_of(source.count, [&](std::size_t i, std::size_t axis) {
         return proper(source[i]) ? source[i][2 * axis] : std::numeric_limits<Real>::quiet_NaN();
@@ -130,32 +217,32 @@ class BoxSorter {
     return {&c->x, &c->y, &c->z, &c->r, sizeof *c, source_.count};
   }
 
-  /// Runs body(begin, end) over [0, count).
-  template <class Body>
-  std::optional<Error> in_tasks(std::size_t count, const Body& body) const {
-    const std::size_t tasks =
-        means_.threads() == 1 ? 1 : std::min<std::size_t>(64, count / kTaskBoxes + 1);
-    return means_.run(tasks,
-                      [&](std::size_t t) { body(count * t / tasks, count * (t + 1) / tasks); });
-  }
-
   std::optional<Error> place_corners() {
     if (!memory_.corners.reserve((source_.count + kSlack) * sizeof(SphereOf<Cull>))) {
       return out_of_memory();
     }
     SphereOf<Cull>* const to = corners();
-    return in_tasks(source_.count, [&](std::size_t begin, std::size_t end) {
-      for (std::size_t i = begin; i < end; ++i) {
-        const Real* const box = source_[i];
-        const Cull x = map_(box[0], 0);
-        const Cull y = map_(box[2], 1);
-        const Cull z = map_(box[4], 2);
-        const Cull longest =
-            std::max({map_(box[1], 0) - x, map_(box[3], 1) - y, map_(box[5], 2) - z});
-        // Infinite and NaN extents, and a NaN that max does not see, make the sphere invalid.
-        to[i] = {x, y, z, proper(box) ? longest / 2 : Cull(-1)};
-      }
-    });
+    return means_.run_pieces(source_.count, kPieceBoxes,
+                             [&](std::size_t, std::size_t begin, std::size_t end) {
+                               for (std::size_t i = begin; i < end; ++i) {
+                                 to[i] = corner_of(source_[i]);
+                               }
+                             });
+  }
+
+  /// Infinite and NaN extents, and a NaN that max does not see, make it invalid.
+  [[nodiscard]] SphereOf<Cull> corner_of(const Real* box) const noexcept {
+    const auto place = [&](std::size_t axis) {
+      return ignored_[axis] ? Cull(0) : map_(box[2 * axis], axis);
+    };
+    const Cull x = place(0);
+    const Cull y = place(1);
+    const Cull z = place(2);
+    const auto side = [&](std::size_t axis, Cull low) {
+      return ignored_[axis] ? Cull(0) : map_(box[2 * axis + 1], axis) - low;
+    };
+    const Cull longest = std::max({side(0, x), side(1, y), side(2, z)});
+    return {x, y, z, proper(box) ? longest / 2 : Cull(-1)};
   }
 
   std::optional<Error> take_survey() {
@@ -254,34 +341,46 @@ class BoxSorter {
     if (auto error = order(means_, source, survey_, plan, order_memory_, bodies)) {
       return *std::move(error);
     }
+    if (auto error = place_corners_in_order()) return *std::move(error);
+    return BoxOrder::done;
+  }
+
+  /// Corners of all boxes by sorted position, and the places of scanned ones.
+  std::optional<Error> place_corners_in_order() {
+    Ordered<Cull, Cull>& bodies = out_.bodies;
     const std::size_t all = bodies.bodies + bodies.scanned;
     const std::size_t with_slack = all + kSlack;
     if (!memory_.high.reserve(3 * with_slack * sizeof(Cull))) return out_of_memory();
-    auto* const high = memory_.high.as<Cull>();
-    bodies.cull.high_x = high;
-    bodies.cull.high_y = high + with_slack;
-    bodies.cull.high_z = high + 2 * with_slack;
-    for (std::size_t p = bodies.bodies; p < all; ++p) {
-      const std::uint32_t id = memory_.scanned[p - bodies.bodies];
-      bodies.ids[p] = id;
-      bodies.cull.x[p] = map_.clamped(source_[id][0], 0);
-      bodies.cull.y[p] = map_.clamped(source_[id][2], 1);
-      bodies.cull.z[p] = map_.clamped(source_[id][4], 2);
+    const bool full_grid = std::none_of(ignored_.begin(), ignored_.end(), std::identity());
+    if (!memory_.low.reserve(full_grid ? 0 : 3 * with_slack * sizeof(Cull))) return out_of_memory();
+    out_.touching_unsure = out_.touching_unsure || !full_grid;
+    std::copy(memory_.scanned.begin(), memory_.scanned.end(), bodies.ids + bodies.bodies);
+    std::array<Cull*, 3> low = {bodies.cull.x, bodies.cull.y, bodies.cull.z};
+    std::array<Cull*, 3> high;
+    for (std::size_t axis = 0; axis < 3; ++axis) {
+      std::fill(low[axis] + bodies.bodies, low[axis] + with_slack, Cull(0));
+      if (ignored_[axis]) low[axis] = memory_.low.as<Cull>() + axis * with_slack;
+      high[axis] = memory_.high.as<Cull>() + axis * with_slack;
+      std::fill(low[axis] + all, low[axis] + with_slack, Cull(0));
+      std::fill(high[axis] + all, high[axis] + with_slack, Cull(0));
     }
-    for (Cull* array : {bodies.cull.high_x, bodies.cull.high_y, bodies.cull.high_z}) {
-      std::fill(array + all, array + with_slack, Cull(0));
-    }
-    if (auto error = in_tasks(all, [&](std::size_t begin, std::size_t end) {
-          for (std::size_t p = begin; p < end; ++p) {
-            const Real* const box = source_[bodies.ids[p]];
-            bodies.cull.high_x[p] = map_.clamped(box[1], 0);
-            bodies.cull.high_y[p] = map_.clamped(box[3], 1);
-            bodies.cull.high_z[p] = map_.clamped(box[5], 2);
-          }
-        })) {
-      return *std::move(error);
-    }
-    return BoxOrder::done;
+    CullArrays<Cull>& cull = bodies.cull;
+    cull = {cull.x, cull.y, cull.z, cull.r, low[0], low[1], low[2], high[0], high[1], high[2]};
+    const auto place = [&](std::size_t, std::size_t begin, std::size_t end) {
+      for (std::size_t p = begin; p < end; ++p) {
+        const Real* const box = source_[bodies.ids[p]];
+        high[0][p] = map_.clamped(box[1], 0);
+        high[1][p] = map_.clamped(box[3], 1);
+        high[2][p] = map_.clamped(box[5], 2);
+      }
+      for (std::size_t axis = 0; axis < 3; ++axis) {  // others lie at their lowest corners
+        for (std::size_t p = ignored_[axis] ? begin : std::max(begin, bodies.bodies); p < end;
+             ++p) {
+          low[axis][p] = map_.clamped(source_[bodies.ids[p]][2 * axis], axis);
+        }
+      }
+    };
+    return means_.run_pieces(all, kPieceBoxes, place);
   }
 
   const Means& means_;
@@ -289,6 +388,7 @@ class BoxSorter {
   BoxMemory& memory_;
   OrderMemory& order_memory_;
   OrderedBoxes<Real, Cull>& out_;
+  std::array<bool, 3> ignored_;  ///< axes without a part in the grid
   BoxMap<Real, Cull> map_;
   Survey<Cull> survey_;
 };

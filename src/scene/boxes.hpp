@@ -2,8 +2,9 @@
 
 // Boxes in the terms of the order and the search: a box is sorted like a sphere that sits at its
 // lowest corner and whose radius is half of its longest side. Two boxes that overlap are then
-// within reach of each other, cell for cell. Boxes that would spoil the grid, infinite or huge
-// beside the others, stay out of it and are scanned.
+// within reach of each other, cell for cell. An axis along which boxes are long beside their other
+// sides is left out of this, the grid has one cell along it. Boxes that would spoil the grid all
+// the same, infinite or huge beside the others, stay out of it and are scanned.
 
 #include <cstdint>
 #include <optional>
@@ -31,6 +32,7 @@ struct BoxSource {
 struct BoxMemory {
   Buffer corners;  ///< a sphere for each box, by id
   Buffer high;     ///< highest corners in sorted order, one array for each axis
+  Buffer low;      ///< lowest corners along the axes that the grid ignores
   std::vector<std::uint32_t> invalid, scanned;
 };
 
@@ -39,7 +41,8 @@ template <class Real, class Cull>
 struct OrderedBoxes : BoxJudge {
   Ordered<Cull, Cull> bodies;
   BoxSource<Real> source;
-  static constexpr bool kRounded = sizeof(Cull) < sizeof(Real);
+  /// Culling coordinates that are equal may have been different: rounded, or clamped in the grid.
+  bool touching_unsure = sizeof(Cull) < sizeof(Real);
 };
 
 /// What became of an attempt to order.

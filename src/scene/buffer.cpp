@@ -20,7 +20,16 @@ std::align_val_t alignment_of(std::size_t bytes) noexcept {
   return std::align_val_t{bytes >= kLargePageBytes ? kLargePage : kCacheLine};
 }
 
-void* allocate(std::size_t bytes) noexcept {
+/// Some room to grow, whole pages where it is large.
+std::size_t rounded(std::size_t bytes) noexcept {
+  const std::size_t roomy = bytes + bytes / 8;
+  const std::size_t unit = roomy >= kLargePageBytes ? kLargePage : kCacheLine;
+  return (roomy + unit - 1) / unit * unit;
+}
+
+}  // namespace
+
+void* allocate_large(std::size_t bytes) noexcept {
   void* const memory = ::operator new(bytes, alignment_of(bytes), std::nothrow);
 #if defined(__linux__) && defined(MADV_HUGEPAGE)
   if (memory != nullptr && bytes >= kLargePageBytes) {
@@ -30,18 +39,9 @@ void* allocate(std::size_t bytes) noexcept {
   return memory;
 }
 
-void deallocate(void* memory, std::size_t bytes) noexcept {
+void deallocate_large(void* memory, std::size_t bytes) noexcept {
   ::operator delete(memory, alignment_of(bytes), std::nothrow);
 }
-
-/// Some room to grow, whole pages where it is large.
-std::size_t rounded(std::size_t bytes) noexcept {
-  const std::size_t roomy = bytes + bytes / 8;
-  const std::size_t unit = roomy >= kLargePageBytes ? kLargePage : kCacheLine;
-  return (roomy + unit - 1) / unit * unit;
-}
-
-}  // namespace
 
 Buffer::Buffer(Buffer&& other) noexcept
     : memory_(std::exchange(other.memory_, nullptr)), bytes_(std::exchange(other.bytes_, 0)) {}
@@ -61,7 +61,7 @@ bool Buffer::grow(std::size_t bytes, std::size_t used_bytes) noexcept {
   if (bytes > static_cast<std::size_t>(-1) / 4) return false;
   const std::size_t wanted = rounded(bytes);
   if (used_bytes == 0) release();
-  void* const memory = allocate(wanted);
+  void* const memory = allocate_large(wanted);
   if (memory == nullptr) return false;
   if (used_bytes != 0) {
     std::memcpy(memory, memory_, used_bytes);
@@ -73,7 +73,7 @@ bool Buffer::grow(std::size_t bytes, std::size_t used_bytes) noexcept {
 }
 
 void Buffer::release() noexcept {
-  if (memory_ != nullptr) deallocate(memory_, bytes_);
+  if (memory_ != nullptr) deallocate_large(memory_, bytes_);
   memory_ = nullptr;
   bytes_ = 0;
 }

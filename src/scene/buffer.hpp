@@ -4,8 +4,13 @@
 // when it grows.
 
 #include <cstddef>
+#include <new>
 
 namespace harpoon::scene {
+
+/// Cache-line-aligned memory, in large pages where it is large; null when there is none.
+void* allocate_large(std::size_t bytes) noexcept;
+void deallocate_large(void* memory, std::size_t bytes) noexcept;
 
 class Buffer {
  public:
@@ -32,6 +37,28 @@ class Buffer {
  private:
   void* memory_ = nullptr;
   std::size_t bytes_ = 0;
+};
+
+/// Memory as a buffer's for std::vector, so that random access over it meets large pages.
+template <class T>
+struct LargeAllocator {
+  using value_type = T;
+
+  LargeAllocator() = default;
+  template <class U>
+  LargeAllocator(const LargeAllocator<U>&) noexcept {}  // NOLINT(google-explicit-constructor)
+
+  [[nodiscard]] T* allocate(std::size_t count) {
+    void* const memory = count > static_cast<std::size_t>(-1) / 4 / sizeof(T)
+                             ? nullptr
+                             : allocate_large(count * sizeof(T));
+    if (memory == nullptr) throw std::bad_alloc();
+    return static_cast<T*>(memory);
+  }
+  void deallocate(T* memory, std::size_t count) noexcept {
+    deallocate_large(memory, count * sizeof(T));
+  }
+  friend bool operator==(const LargeAllocator&, const LargeAllocator&) noexcept { return true; }
 };
 
 }  // namespace harpoon::scene

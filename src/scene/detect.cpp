@@ -1,7 +1,6 @@
 // The stateless door for spheres: checks the call, then survey -> plan -> order -> search ->
 // output.
 
-#include <cstring>
 #include <new>
 
 #include "base/float_environment.hpp"
@@ -28,42 +27,16 @@ struct ContactSink {
   std::span<BodyContactOf<Real>> out;
 
   [[nodiscard]] std::uint64_t capacity() const noexcept { return out.size(); }
-  std::size_t write(const Candidates& list, std::size_t begin, std::size_t end,
-                    std::size_t at) const noexcept {
-    return from.kernels.contacts(from.spheres, from.ids, list, begin, end, out.data() + at);
-  }
-  void move(std::size_t source, std::size_t count, std::size_t to) const noexcept {
-    std::memmove(static_cast<void*>(out.data() + to), out.data() + source,
-                 count * sizeof(BodyContactOf<Real>));
-  }
-};
-
-/// Pairs as the output.
-template <class Real>
-struct PairSink {
-  Sorted<Real> from;
-  std::span<IndexPair> out;
-
-  [[nodiscard]] std::uint64_t capacity() const noexcept { return out.size(); }
-  std::size_t write(const Candidates& list, std::size_t begin, std::size_t end,
-                    std::size_t at) const noexcept {
-    Candidates part = list;
-    part.count = end;
-    from.kernels.keep_hits(from.spheres, from.ids, begin, part);
-    return scene::write_pairs(from.ids, part, begin, part.count, out.data() + at);
-  }
-  void move(std::size_t source, std::size_t count, std::size_t to) const noexcept {
-    std::memmove(out.data() + to, out.data() + source, count * sizeof(IndexPair));
+  void write(const Candidates& list, std::size_t begin, std::size_t end,
+             std::size_t at) const noexcept {
+    from.kernels.contacts(from.spheres, from.ids, list, begin, end, out.data() + at);
   }
 };
 
 /// No output: a count.
 struct CountSink {
-  [[nodiscard]] std::uint64_t capacity() const noexcept { return 0; }
-  std::size_t write(const Candidates&, std::size_t, std::size_t, std::size_t) const noexcept {
-    return 0;
-  }
-  void move(std::size_t, std::size_t, std::size_t) const noexcept {}
+  [[nodiscard]] static std::uint64_t capacity() noexcept { return 0; }
+  static void write(const Candidates&, std::size_t, std::size_t, std::size_t) noexcept {}
 };
 
 template <class Real>
@@ -71,8 +44,8 @@ ContactSink<Real> sink_of(const Sorted<Real>& from, std::span<BodyContactOf<Real
   return {from, out};
 }
 template <class Real>
-PairSink<Real> sink_of(const Sorted<Real>& from, std::span<IndexPair> out) {
-  return {from, out};
+scene::PairSink sink_of(const Sorted<Real>& from, std::span<IndexPair> out) {
+  return {from.ids, out};
 }
 struct Nothing {
   static std::size_t size() { return 0; }

@@ -33,6 +33,10 @@ struct Grid {
   Cull last_sub_cell_y = 0;
   Cull last_sub_cell_z = 0;
   Cull max_radius = 0;  ///< of the level, as used for culling
+  /// Spheres whose distance squared is less than that below the square of their reach may turn out
+  /// not to touch; all others do.
+  Cull doubtful_below = 0;
+  bool short_runs = false;  ///< few bodies in a window; a matter of speed alone
   std::uint32_t row_shift = 0;
   std::uint32_t half_window = 1;
   std::uint32_t stride_y = 0;
@@ -56,11 +60,12 @@ struct CullMap {
 inline constexpr double kRadiusScale = 1.0 + 0x1p-19;
 
 /// Sorted bodies as the search reads them: culling coordinates, one array each. For spheres x, y, z
-/// is the centre. For boxes it is the lowest corner, r half of the longest side, and the highest
-/// corner comes with it.
+/// is the centre. For boxes it is the place in the grid, r half of the longest side, and both
+/// corners come with it. The place is the lowest corner, but 0 along an axis that the grid ignores.
 template <class Cull>
 struct CullArrays {
   Cull *x, *y, *z, *r;
+  Cull *low_x = nullptr, *low_y = nullptr, *low_z = nullptr;
   Cull *high_x = nullptr, *high_y = nullptr, *high_z = nullptr;
 };
 

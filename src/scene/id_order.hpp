@@ -1,7 +1,8 @@
 #pragma once
 
-// Candidates in ascending order of ids: counted by the lower id, then each run sorted by the
-// higher.
+// Candidates in ascending order of ids. They are first parted by ranges of the lower id, then each
+// part is counted by it and each run sorted by the higher: parts fit a cache and are shared between
+// threads.
 
 #include <cstdint>
 #include <optional>
@@ -13,15 +14,25 @@
 
 namespace harpoon::scene {
 
-struct IdOrder {
-  Buffer& list;
-  Buffer& starts;
+/// What an ordering needs, and the memory of its result.
+struct IdOrderMemory {
+  Buffer list;  ///< the result
+  Buffer parted, ordered, starts, counts;
+
+  [[nodiscard]] std::size_t bytes() const noexcept {
+    return list.bytes() + parted.bytes() + ordered.bytes() + starts.bytes() + counts.bytes();
+  }
 };
 
-/// Merges the lists into `out`, whose memory is `memory.list`: i has the lower id. `bodies` is one
-/// more than the largest id.
-std::optional<Error> order_by_ids(const std::uint32_t* ids, std::size_t bodies,
-                                  std::span<const TaskList> lists, const IdOrder& memory,
-                                  Candidates& out) noexcept;
+/// Merges the lists into `out`, whose memory is `memory.list`; i is the body of the lower id.
+/// `bodies` is one more than the largest id. Throws std::bad_alloc only.
+std::optional<Error> order_by_ids(const Means& means, const std::uint32_t* ids, std::size_t bodies,
+                                  std::span<const TaskList> lists, IdOrderMemory& memory,
+                                  Candidates& out);
+
+/// The same with ids, not sorted positions, as the result.
+std::optional<Error> ids_in_order(const Means& means, const std::uint32_t* ids, std::size_t bodies,
+                                  std::span<const TaskList> lists, IdOrderMemory& memory,
+                                  Candidates& out);
 
 }  // namespace harpoon::scene

@@ -8,6 +8,7 @@
 #include <algorithm>
 #include <bit>
 #include <cstring>
+#include <limits>
 
 #undef HWY_TARGET_INCLUDE
 #define HWY_TARGET_INCLUDE "scene/kernels.cpp"
@@ -15,6 +16,7 @@
 #include "hwy/highway.h"
 
 #include "base/instruction_set.hpp"
+#include "collide/copy_sphere.inl"
 #include "collide/simd.inl"
 
 HWY_BEFORE_NAMESPACE();
@@ -29,6 +31,12 @@ using Tag = hn::ScalableTag<T>;
 template <class T>
 using Vector = hn::Vec<Tag<T>>;
 using Index = Tag<std::uint32_t>;
+/// Lanes of the vectors that test long runs of neighbours, and short ones: most of those are
+/// shorter than eight, wider vectors would carry nothing but work.
+template <class T>
+constexpr std::size_t kLongRunLanes = HWY_LANES(T);
+template <class T>
+constexpr std::size_t kShortRunLanes = std::min<std::size_t>(HWY_LANES(T), 32 / sizeof(T));
 
 constexpr std::size_t kMaxLanes = HWY_MAX_BYTES / sizeof(float);
 static_assert(kMaxLanes <= kSlack);
@@ -268,21 +276,29 @@ void cull_arrays_double(const SphereOf<Real>* bodies, const CullMap& map, std::s
 // ---- Search ---------------------------------------------------------------------------------
 
 /// The end of a list, kept in registers while a block is searched.
-struct Cursor {
+struct ListEnd {
   std::uint32_t* i;
   std::uint32_t* j;
   std::size_t count, capacity;
 };
 
-HWY_INLINE Cursor cursor_of(const Candidates& list) {
+HWY_INLINE ListEnd end_of(const Candidates& list) {
   return {list.i, list.j, list.count, list.capacity};
 }
 
-HWY_NOINLINE Cursor make_room(Cursor cursor, Candidates& list, RoomMaker& room) {
-  list.count = cursor.count;
+HWY_NOINLINE ListEnd make_room(ListEnd end, Candidates& list, RoomMaker& room) {
+  list.count = end.count;
   room.make_room(room, list);
-  return cursor_of(list);
+  return end_of(list);
 }
+
+/// What a search carries from test to test: the end of its list and the doubt about it.
+template <class Shape>
+struct Cursor : ListEnd {
+  typename Shape::Doubt doubt;
+
+  HWY_INLINE explicit Cursor(const Candidates& list) : ListEnd(end_of(list)) {}
+};
 
 /// Exactly as many bytes as the mask has, so that it stays in registers.
 template <class D, class M>
@@ -294,55 +310,79 @@ HWY_INLINE std::uint32_t mask_bits(D d, const M& mask) {
 
 /// Appends the lanes of `hits`, whose bodies start at sorted position j, as partners of body i;
 /// without a branch, because which tests hit is unpredictable.
-template <class M>
-HWY_INLINE void append(Tag<float> d, const M& hits, std::uint32_t i, std::uint32_t j,
-                       Cursor& cursor) {
-  const Index du;
-  const auto partners = hn::Add(hn::Set(du, j), hn::Iota(du, 0));
-  hn::StoreU(hn::Compress(partners, hn::RebindMask(du, hits)), du, cursor.j + cursor.count);
-  hn::StoreU(hn::Set(du, i), du, cursor.i + cursor.count);
-  cursor.count += hn::CountTrue(d, hits);
-}
-
-template <class M>
-HWY_INLINE void append(Tag<double> d, const M& hits, std::uint32_t i, std::uint32_t j,
-                       Cursor& cursor) {
-  for (std::uint32_t bits = mask_bits(d, hits); bits != 0; bits &= bits - 1) {
-    cursor.i[cursor.count] = i;
-    cursor.j[cursor.count] =
-        j + static_cast<std::uint32_t>(hwy::Num0BitsBelowLS1Bit_Nonzero32(bits));
-    ++cursor.count;
+template <class D, class M>
+HWY_INLINE void append(D d, const M& hits, std::uint32_t i, std::uint32_t j, ListEnd& cursor) {
+  if constexpr (sizeof(hn::TFromD<D>) == sizeof(std::uint32_t)) {
+    const hn::Rebind<std::uint32_t, D> du;
+    const auto partners = hn::Add(hn::Set(du, j), hn::Iota(du, 0));
+    hn::StoreU(hn::Compress(partners, hn::RebindMask(du, hits)), du, cursor.j + cursor.count);
+    hn::StoreU(hn::Set(du, i), du, cursor.i + cursor.count);
+    cursor.count += hn::CountTrue(d, hits);
+  } else {
+    for (std::uint32_t bits = mask_bits(d, hits); bits != 0; bits &= bits - 1) {
+      cursor.i[cursor.count] = i;
+      cursor.j[cursor.count] =
+          j + static_cast<std::uint32_t>(hwy::Num0BitsBelowLS1Bit_Nonzero32(bits));
+      ++cursor.count;
+    }
   }
 }
 
+/// How closely the candidates of some spheres came to being none: the least of reach squared minus
+/// distance squared. Culling radii are a little larger than the bodies' own, so only candidates
+/// that came close may turn out not to touch.
+template <class D>
+struct SphereDoubt {
+  hn::Vec<D> least;
+
+  HWY_INLINE SphereDoubt() : least(hn::Set(D(), std::numeric_limits<hn::TFromD<D>>::infinity())) {}
+  [[nodiscard]] HWY_INLINE bool below(hn::TFromD<D> difference) const {
+    return hn::GetLane(hn::MinOfLanes(D(), least)) < difference;
+  }
+};
+
+/// Boxes that are candidates overlap.
+struct NoDoubt {
+  template <class Cull>
+  [[nodiscard]] HWY_INLINE bool below(Cull) const {
+    return false;
+  }
+};
+
 /// A shape says when two bodies are candidates and what a body covers along an axis. An object of
-/// it is the body that a run is tested against.
-template <class Cull>
+/// it is the body that a run is tested against, so many lanes at a time.
+template <class Cull, std::size_t kLanes>
 struct SphereShape {
   using Number = Cull;
-  using Vec = Vector<Cull>;
+  using Lanes = hn::CappedTag<Cull, kLanes>;
+  using Doubt = SphereDoubt<Lanes>;
+  using Vec = hn::Vec<Lanes>;
   Vec x, y, z, r;
 
   HWY_INLINE SphereShape(const SearchJob<Cull>& job, std::uint32_t i) {
-    const Tag<Cull> d;
+    const Lanes d;
     x = hn::Set(d, job.bodies.x[i]);
     y = hn::Set(d, job.bodies.y[i]);
     z = hn::Set(d, job.bodies.z[i]);
     r = hn::Set(d, job.bodies.r[i]);
   }
 
-  /// Which of the first `present` bodies from sorted position j on are candidates.
-  HWY_INLINE auto near(const SearchJob<Cull>& job, std::uint32_t, std::uint32_t j,
-                       std::uint32_t present) const {
-    const Tag<Cull> d;
+  /// Which of the `present` bodies from sorted position j on are candidates.
+  template <class M>
+  HWY_INLINE M near(const SearchJob<Cull>& job, std::uint32_t, std::uint32_t j, const M& present,
+                    Doubt& doubt) const {
+    const Lanes d;
     const CullArrays<Cull>& bodies = job.bodies;
     const auto dx = hn::Sub(hn::LoadU(d, bodies.x + j), x);
     const auto dy = hn::Sub(hn::LoadU(d, bodies.y + j), y);
     const auto dz = hn::Sub(hn::LoadU(d, bodies.z + j), z);
     const auto reach = hn::Add(hn::LoadU(d, bodies.r + j), r);
-    const auto squared = hn::MulAdd(dx, dx, hn::MulAdd(dy, dy, hn::Mul(dz, dz)));
-    const auto within = hn::Le(squared, hn::Mul(reach, reach));
-    return hn::And(within, hn::FirstN(d, present));
+    // Reach squared minus distance squared.
+    const auto inside =
+        hn::NegMulAdd(dx, dx, hn::NegMulAdd(dy, dy, hn::NegMulAdd(dz, dz, hn::Mul(reach, reach))));
+    const auto within = hn::And(hn::Ge(inside, hn::Zero(d)), present);
+    doubt.least = hn::IfThenElse(within, hn::Min(doubt.least, inside), doubt.least);
+    return within;
   }
 
   /// Where the coordinates of partners of a level lie.
@@ -368,38 +408,41 @@ struct SphereShape {
   }
 };
 
-/// Boxes are sorted by their lowest corner. Rounding to culling coordinates is monotone, so closed
+/// Boxes are sorted by their place. Rounding to culling coordinates is monotone, so closed
 /// boxes that overlap still do, and boxes that overlap by more than a touch certainly did.
-template <class Cull>
+template <class Cull, std::size_t kLanes>
 struct BoxShape {
   using Number = Cull;
-  using Vec = Vector<Cull>;
+  using Lanes = hn::CappedTag<Cull, kLanes>;
+  using Doubt = NoDoubt;
+  using Vec = hn::Vec<Lanes>;
   Vec x, y, z, high_x, high_y, high_z;
 
   HWY_INLINE BoxShape(const SearchJob<Cull>& job, std::uint32_t i) {
-    const Tag<Cull> d;
-    x = hn::Set(d, job.bodies.x[i]);
-    y = hn::Set(d, job.bodies.y[i]);
-    z = hn::Set(d, job.bodies.z[i]);
+    const Lanes d;
+    x = hn::Set(d, job.bodies.low_x[i]);
+    y = hn::Set(d, job.bodies.low_y[i]);
+    z = hn::Set(d, job.bodies.low_z[i]);
     high_x = hn::Set(d, job.bodies.high_x[i]);
     high_y = hn::Set(d, job.bodies.high_y[i]);
     high_z = hn::Set(d, job.bodies.high_z[i]);
   }
 
-  HWY_INLINE auto near(const SearchJob<Cull>& job, std::uint32_t i, std::uint32_t j,
-                       std::uint32_t present) const {
-    const Tag<Cull> d;
+  template <class M>
+  HWY_INLINE M near(const SearchJob<Cull>& job, std::uint32_t i, std::uint32_t j, const M& present,
+                    Doubt&) const {
+    const Lanes d;
     const CullArrays<Cull>& b = job.bodies;
     // The widest gap along an axis, below 0 where the boxes overlap along all. Differences of
     // finite numbers have the right sign; one operation each is less work than a mask each.
     const auto gap_x =
-        hn::Max(hn::Sub(hn::LoadU(d, b.x + j), high_x), hn::Sub(x, hn::LoadU(d, b.high_x + j)));
+        hn::Max(hn::Sub(hn::LoadU(d, b.low_x + j), high_x), hn::Sub(x, hn::LoadU(d, b.high_x + j)));
     const auto gap_y =
-        hn::Max(hn::Sub(hn::LoadU(d, b.y + j), high_y), hn::Sub(y, hn::LoadU(d, b.high_y + j)));
+        hn::Max(hn::Sub(hn::LoadU(d, b.low_y + j), high_y), hn::Sub(y, hn::LoadU(d, b.high_y + j)));
     const auto gap_z =
-        hn::Max(hn::Sub(hn::LoadU(d, b.z + j), high_z), hn::Sub(z, hn::LoadU(d, b.high_z + j)));
+        hn::Max(hn::Sub(hn::LoadU(d, b.low_z + j), high_z), hn::Sub(z, hn::LoadU(d, b.high_z + j)));
     const auto gap = hn::Max(hn::Max(gap_x, gap_y), gap_z);
-    auto hits = hn::And(hn::Le(gap, hn::Zero(d)), hn::FirstN(d, present));
+    auto hits = hn::And(hn::Le(gap, hn::Zero(d)), present);
     if (job.judge_touching) {
       const auto unsure = hn::And(hits, hn::Eq(gap, hn::Zero(d)));
       if (HWY_UNLIKELY(!hn::AllFalse(d, unsure))) hits = judged(*job.judge, i, j, hits, unsure);
@@ -407,6 +450,7 @@ struct BoxShape {
     return hits;
   }
 
+  /// Along an axis that the grid ignores there is one cell, whatever these say.
   template <class D>
   static HWY_INLINE hn::Vec<D> low(D d, const CullArrays<Cull>& b, int axis, std::uint32_t i,
                                    const hn::Vec<D>& largest) {
@@ -424,7 +468,7 @@ struct BoxShape {
   template <class M>
   static HWY_NOINLINE M judged(const BoxJudge& judge, std::uint32_t i, std::uint32_t j, M hits,
                                M unsure) {
-    const Tag<Cull> d;
+    const Lanes d;
     HWY_ALIGN Cull apart[HWY_MAX_BYTES / sizeof(Cull)] = {};
     for (std::uint32_t bits = mask_bits(d, unsure); bits != 0; bits &= bits - 1) {
       const auto lane = static_cast<std::uint32_t>(hwy::Num0BitsBelowLS1Bit_Nonzero32(bits));
@@ -444,20 +488,35 @@ struct BlockSearch {
   RoomMaker& room;
 };
 
+/// Positions that are tested before the list is looked at for room again.
+constexpr std::uint32_t kRunBodies = 512;
+
+/// The first `count` lanes, at most 2^31 - 1.
+template <class D>
+HWY_INLINE hn::Mask<D> first_lanes(D d, std::uint32_t count) {
+  const hn::RebindToSigned<D> di;
+  const auto bound = hn::Set(di, static_cast<hn::TFromD<decltype(di)>>(count));
+  return hn::RebindMask(d, hn::Gt(bound, hn::Iota(di, 0)));
+}
+
 /// Body i against the sorted positions [first, end).
 template <class Shape>
-HWY_INLINE Cursor test_run(const BlockSearch<Shape>& block, std::uint32_t i, std::uint32_t first,
-                           std::uint32_t end, Cursor cursor) {
-  const Tag<typename Shape::Number> d;
+HWY_INLINE Cursor<Shape> test_run(const BlockSearch<Shape>& block, std::uint32_t i,
+                                  std::uint32_t first, std::uint32_t end, Cursor<Shape> cursor) {
+  const typename Shape::Lanes d;
   const auto lanes = static_cast<std::uint32_t>(hn::Lanes(d));
-  const Shape body(block.job, i);
   std::uint32_t j = first;
   do {
-    append(d, body.near(block.job, i, j, end - j), i, j, cursor);
-    if (HWY_UNLIKELY(cursor.count + kMaxLanes > cursor.capacity)) {
-      cursor = make_room(cursor, block.list, block.room);
+    // Before the body is loaded: nothing of it has to survive the call.
+    if (HWY_UNLIKELY(cursor.count + kRunBodies > cursor.capacity)) {
+      static_cast<ListEnd&>(cursor) = make_room(cursor, block.list, block.room);
     }
-    j += lanes;
+    const Shape body(block.job, i);
+    const std::uint32_t stop = j + std::min(end - j, kRunBodies);
+    do {
+      append(d, body.near(block.job, i, j, first_lanes(d, stop - j), cursor.doubt), i, j, cursor);
+      j += lanes;
+    } while (HWY_UNLIKELY(j < stop));
   } while (HWY_UNLIKELY(j < end));
   return cursor;
 }
@@ -465,9 +524,9 @@ HWY_INLINE Cursor test_run(const BlockSearch<Shape>& block, std::uint32_t i, std
 /// The block's k-th body against `length` buckets from `first` on, which may run over the end of a
 /// folded table. Adds to `tested`.
 template <class Shape, class Cull>
-HWY_INLINE Cursor test_buckets(const BlockSearch<Shape>& block, const Grid<Cull>& grid,
-                               std::uint32_t k, std::uint32_t first, std::uint32_t length,
-                               Cursor cursor, std::uint64_t& tested) {
+HWY_INLINE Cursor<Shape> test_buckets(const BlockSearch<Shape>& block, const Grid<Cull>& grid,
+                                      std::uint32_t k, std::uint32_t first, std::uint32_t length,
+                                      Cursor<Shape> cursor, std::uint64_t& tested) {
   const std::uint32_t i = block.begin + k;
   const std::uint32_t last = first + length - 1;
   const std::uint32_t begin = grid.ends[static_cast<std::ptrdiff_t>(first) - 1];
@@ -480,6 +539,11 @@ HWY_INLINE Cursor test_buckets(const BlockSearch<Shape>& block, const Grid<Cull>
   tested += grid.end - begin + (end - grid.begin);
   cursor = test_run(block, i, begin, grid.end, cursor);
   return test_run(block, i, grid.begin, end, cursor);
+}
+
+HWY_INLINE hn::Vec<Index> offsets_from(std::uint32_t k) {
+  const Index du;
+  return hn::Add(hn::Set(du, k), hn::Iota(du, 0));  // Iota of a variable goes through memory
 }
 
 /// Some bodies of a block, as offsets from its first.
@@ -516,7 +580,7 @@ HWY_INLINE void fill_own_cells(const SearchJob<float>& job, const Grid<float>& g
         cells_of(grid, hn::LoadU(d, job.bodies.x + begin + k),
                  hn::LoadU(d, job.bodies.y + begin + k), hn::LoadU(d, job.bodies.z + begin + k));
     hn::StoreU(c.bucket, du, out.bucket + k);
-    const auto offsets = hn::Iota(du, k);
+    const auto offsets = offsets_from(k);
     const auto present = hn::FirstN(du, count - k);
     const auto y = hn::And(c.sub_y, in_row);
     const auto last_y = hn::And(present, hn::Eq(y, in_row));
@@ -548,9 +612,10 @@ HWY_INLINE void fill_own_cells(const SearchJob<double>& job, const Grid<double>&
 
 /// The selected bodies against the neighbouring row `offset` buckets away.
 template <class Shape, class Cull>
-HWY_INLINE Cursor search_row(const BlockSearch<Shape>& block, const Grid<Cull>& grid,
-                             const OwnCells& cells, const Selection& who, std::uint32_t offset,
-                             Cursor cursor, std::uint64_t& tested) {
+HWY_INLINE Cursor<Shape> search_row(const BlockSearch<Shape>& block, const Grid<Cull>& grid,
+                                    const OwnCells& cells, const Selection& who,
+                                    std::uint32_t offset, Cursor<Shape> cursor,
+                                    std::uint64_t& tested) {
   const std::uint32_t from = offset - grid.half_window;
   const std::uint32_t length = 2 * grid.half_window + 1;
   for (std::uint32_t n = 0; n < who.count; ++n) {
@@ -563,13 +628,13 @@ HWY_INLINE Cursor search_row(const BlockSearch<Shape>& block, const Grid<Cull>& 
 
 /// A block among the bodies of its own level: its own rows forward, then the rows after them.
 template <class Shape, class Cull>
-HWY_NOINLINE std::uint64_t search_own_level(const SearchJob<Cull>& job, const Grid<Cull>& grid,
-                                            std::uint32_t begin, std::uint32_t end,
-                                            Candidates& list, RoomMaker& room) {
+HWY_NOINLINE SearchResult search_own_level(const SearchJob<Cull>& job, const Grid<Cull>& grid,
+                                           std::uint32_t begin, std::uint32_t end, Candidates& list,
+                                           RoomMaker& room) {
   OwnCells cells;
   fill_own_cells(job, grid, begin, end - begin, cells);
   const BlockSearch<Shape> block{job, begin, list, room};
-  Cursor cursor = cursor_of(list);
+  Cursor<Shape> cursor(list);
   std::uint64_t tested = 0;
   for (std::uint32_t i = begin; i < end; ++i) {
     const std::uint32_t k = i - begin;
@@ -591,7 +656,7 @@ HWY_NOINLINE std::uint64_t search_own_level(const SearchJob<Cull>& job, const Gr
   cursor = search_row(block, grid, cells, cells.last_z, z, cursor, tested);
   cursor = search_row(block, grid, cells, cells.last_z_last_y, z + y, cursor, tested);
   list.count = cursor.count;
-  return tested;
+  return {tested, cursor.doubt.below(grid.doubtful_below)};
 }
 
 /// The bodies of a block in a coarser grid: the first row that each reaches, its cells along x, and
@@ -643,7 +708,7 @@ HWY_INLINE void fill_foreign_cells(const SearchJob<float>& job, const Grid<float
                                hn::Mul(row_z, hn::Set(du, grid.stride_z)));
     hn::StoreU(first, du, out.first + k);
     hn::StoreU(hn::Add(hn::Sub(x.high, x.low), hn::Set(du, 1)), du, out.length + k);
-    const auto offsets = hn::Iota(du, k);
+    const auto offsets = offsets_from(k);
     const auto present = hn::FirstN(du, count - k);
     const auto next_y = hn::And(present, hn::Gt(shifted(y.high, shift), row_y));
     const auto next_z = hn::And(present, hn::Gt(shifted(z.high, shift), row_z));
@@ -694,13 +759,13 @@ HWY_INLINE void fill_foreign_cells(const SearchJob<double>& job, const Grid<doub
 
 /// A block against the bodies of a coarser level.
 template <class Shape, class Cull>
-HWY_NOINLINE std::uint64_t search_coarser_level(const SearchJob<Cull>& job, const Grid<Cull>& grid,
-                                                std::uint32_t begin, std::uint32_t end,
-                                                Candidates& list, RoomMaker& room) {
+HWY_NOINLINE SearchResult search_coarser_level(const SearchJob<Cull>& job, const Grid<Cull>& grid,
+                                               std::uint32_t begin, std::uint32_t end,
+                                               Candidates& list, RoomMaker& room) {
   ForeignCells cells;
   fill_foreign_cells<Shape>(job, grid, begin, end - begin, cells);
   const BlockSearch<Shape> block{job, begin, list, room};
-  Cursor cursor = cursor_of(list);
+  Cursor<Shape> cursor(list);
   std::uint64_t tested = 0;
   const auto rows = [&](const Selection& who, std::uint32_t offset) HWY_ATTR {
     for (std::uint32_t n = 0; n < who.count; ++n) {
@@ -714,50 +779,56 @@ HWY_NOINLINE std::uint64_t search_coarser_level(const SearchJob<Cull>& job, cons
   rows(cells.next_z, grid.stride_z);
   rows(cells.next_both, grid.stride_y + grid.stride_z);
   list.count = cursor.count;
-  return tested;
+  return {tested, cursor.doubt.below(grid.doubtful_below)};
 }
 
 /// A block against all scanned bodies: each of them in turn against the whole block.
 template <class Shape, class Cull>
-HWY_NOINLINE std::uint64_t scan(const SearchJob<Cull>& job, std::uint32_t begin, std::uint32_t end,
-                                Candidates& list, RoomMaker& room) {
+HWY_NOINLINE SearchResult scan(const SearchJob<Cull>& job, std::uint32_t begin, std::uint32_t end,
+                               Candidates& list, RoomMaker& room) {
   const BlockSearch<Shape> block{job, begin, list, room};
-  Cursor cursor = cursor_of(list);
+  Cursor<Shape> cursor(list);
   for (std::uint32_t i = job.scanned_begin; i < job.scanned_end; ++i) {
     cursor = test_run(block, i, begin, end, cursor);
   }
   list.count = cursor.count;
-  return std::uint64_t{end - begin} * (job.scanned_end - job.scanned_begin);
+  return {std::uint64_t{end - begin} * (job.scanned_end - job.scanned_begin), false};
 }
 
 /// Scanned bodies [begin, end) among themselves and the later ones. They may lie beyond all culling
 /// coordinates, where those are equal.
 template <class Shape, class Cull>
-HWY_NOINLINE std::uint64_t scan_scanned(const SearchJob<Cull>& job, std::uint32_t begin,
-                                        std::uint32_t end, Candidates& list, RoomMaker& room) {
+HWY_NOINLINE SearchResult scan_scanned(const SearchJob<Cull>& job, std::uint32_t begin,
+                                       std::uint32_t end, Candidates& list, RoomMaker& room) {
   SearchJob<Cull> doubtful = job;
   doubtful.judge_touching = true;
   const BlockSearch<Shape> block{doubtful, begin, list, room};
-  Cursor cursor = cursor_of(list);
+  Cursor<Shape> cursor(list);
   std::uint64_t tested = 0;
   for (std::uint32_t i = begin; i < end; ++i) {
     tested += job.scanned_end - i - 1;
     cursor = test_run(block, i, i + 1, job.scanned_end, cursor);
   }
   list.count = cursor.count;
-  return tested;
+  return {tested, false};
 }
 
-template <class Shape, class Cull>
-std::uint64_t search(const SearchJob<Cull>& job, std::size_t level, std::uint32_t begin,
-                     std::uint32_t end, Candidates& list, RoomMaker& room) {
-  if (level == job.levels) return scan_scanned<Shape>(job, begin, end, list, room);
-  std::uint64_t tested = search_own_level<Shape>(job, job.grids[level], begin, end, list, room);
+template <template <class, std::size_t> class Shape, class Cull>
+SearchResult search(const SearchJob<Cull>& job, std::size_t level, std::uint32_t begin,
+                    std::uint32_t end, Candidates& list, RoomMaker& room) {
+  using ForLong = Shape<Cull, kLongRunLanes<Cull>>;
+  using ForShort = Shape<Cull, kShortRunLanes<Cull>>;
+  if (level == job.levels) return scan_scanned<ForLong>(job, begin, end, list, room);
+  const Grid<Cull>& own = job.grids[level];
+  SearchResult all = own.short_runs ? search_own_level<ForShort>(job, own, begin, end, list, room)
+                                    : search_own_level<ForLong>(job, own, begin, end, list, room);
   for (std::size_t coarser = 0; coarser < level; ++coarser) {
-    tested += search_coarser_level<Shape>(job, job.grids[coarser], begin, end, list, room);
+    const Grid<Cull>& grid = job.grids[coarser];
+    all += grid.short_runs ? search_coarser_level<ForShort>(job, grid, begin, end, list, room)
+                           : search_coarser_level<ForLong>(job, grid, begin, end, list, room);
   }
-  if (job.scanned_end != job.scanned_begin) tested += scan<Shape>(job, begin, end, list, room);
-  return tested;
+  if (job.scanned_end != job.scanned_begin) all += scan<ForLong>(job, begin, end, list, room);
+  return all;
 }
 
 // ---- Contacts -------------------------------------------------------------------------------
@@ -775,22 +846,14 @@ struct PairBlock {
 };
 
 template <class Real>
-HWY_INLINE void copy_sphere(const SphereOf<Real>& from, SphereOf<Real>& to) {
-  const hn::CappedTag<Real, 4> d;
-  for (std::size_t k = 0; k < 4; k += hn::Lanes(d)) {
-    hn::StoreU(hn::LoadU(d, &from.x + k), d, &to.x + k);
-  }
-}
-
-template <class Real>
 HWY_INLINE void load_pair(const SphereOf<Real>* bodies, const std::uint32_t* ids, std::uint32_t i,
                           std::uint32_t j, std::size_t lane, PairBlock<Real>& block) {
   const std::uint32_t a = ids == nullptr ? i : ids[i];
   const std::uint32_t b = ids == nullptr ? j : ids[j];
   // Ids are in no order that a branch predictor could learn.
   const std::uint32_t swap = (i ^ j) & (0U - static_cast<std::uint32_t>(a > b));
-  copy_sphere(bodies[i ^ swap], block.s1[lane]);
-  copy_sphere(bodies[j ^ swap], block.s2[lane]);
+  simd::copy_sphere(bodies[i ^ swap], block.s1[lane]);
+  simd::copy_sphere(bodies[j ^ swap], block.s2[lane]);
   block.g1[lane] = std::min(a, b);
   block.g2[lane] = std::max(a, b);
 }
@@ -893,6 +956,7 @@ HWY_FLATTEN std::size_t contacts(const SphereOf<Real>* bodies, const std::uint32
   PairBlock<Real> pairs;
   ContactBlock<Real> block;
   BodyContactOf<Real>* const first = out;
+  if (ids == nullptr) fetch_ahead(bodies, list, begin, std::min(end, begin + kFetchAhead));
   for (std::size_t p = begin; p < end; p += lanes) {
     if (ids == nullptr) {
       fetch_ahead(bodies, list, std::min(end, p + kFetchAhead),
@@ -922,10 +986,10 @@ constexpr Kernels<Real> kKernels = {
     largest_move<Real>,
     keep_hits<Real>,
     contacts<Real>,
-    {buckets_float<Real>, cull_arrays_float<Real>, search<SphereShape<float>, float>,
-     search<BoxShape<float>, float>},
-    {buckets_double<Real>, cull_arrays_double<Real>, search<SphereShape<double>, double>,
-     search<BoxShape<double>, double>},
+    {buckets_float<Real>, cull_arrays_float<Real>, search<SphereShape, float>,
+     search<BoxShape, float>},
+    {buckets_double<Real>, cull_arrays_double<Real>, search<SphereShape, double>,
+     search<BoxShape, double>},
 };
 
 const KernelTable* get_kernels() {

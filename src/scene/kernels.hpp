@@ -75,13 +75,24 @@ struct SearchJob {
   bool judge_touching = false;
 };
 
+struct SearchResult {
+  std::uint64_t tests = 0;  ///< pairs tested
+  bool doubtful = false;    ///< some candidates may turn out not to be contacts
+
+  SearchResult& operator+=(const SearchResult& other) noexcept {
+    tests += other.tests;
+    doubtful = doubtful || other.doubtful;
+    return *this;
+  }
+};
+
 /// Candidates of the bodies [begin, end) of one level, a block: among themselves and later bodies
 /// of the level, against all coarser levels, and against the scanned bodies. Level job.levels is
-/// the scanned bodies themselves. Returns the pairs tested.
+/// the scanned bodies themselves.
 template <class Cull>
-using SearchKernel = std::uint64_t (*)(const SearchJob<Cull>& job, std::size_t level,
-                                       std::uint32_t begin, std::uint32_t end, Candidates& list,
-                                       RoomMaker& room);
+using SearchKernel = SearchResult (*)(const SearchJob<Cull>& job, std::size_t level,
+                                      std::uint32_t begin, std::uint32_t end, Candidates& list,
+                                      RoomMaker& room);
 
 template <class Real, class Cull>
 struct CullKernels {

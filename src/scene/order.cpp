@@ -63,6 +63,41 @@ bool one_class(const Extremes<Real>& e) noexcept {
   return static_cast<double>(e.max[3]) <= kOneClassRatio * static_cast<double>(e.min[3]);
 }
 
+/// Bodies of each class, and the largest radius among them, in a part of the bodies.
+template <class Real>
+class ClassCounts {
+ public:
+  void count(const Source<Real>& source, const Classifier<Real>& class_of, bool all_valid,
+             std::size_t begin, std::size_t end) noexcept {
+    for (std::size_t i = begin; i < end; ++i) {
+      const SphereOf<Real> b = source[i];
+      if (!all_valid && !valid(b)) continue;
+      // Neighbours count apart, or each would wait for the one before it.
+      Class& c = classes_[i % kTurns][class_of(b.r)];
+      ++c.bodies;
+      c.max_radius = std::max(c.max_radius, b.r);
+    }
+  }
+
+  void add_to(std::array<RadiusClass, kRadiusClasses>& classes) const noexcept {
+    for (const auto& turn : classes_) {
+      for (std::size_t c = 0; c < kRadiusClasses; ++c) {
+        classes[c].bodies += turn[c].bodies;
+        classes[c].max_radius =
+            std::max(classes[c].max_radius, static_cast<double>(turn[c].max_radius));
+      }
+    }
+  }
+
+ private:
+  static constexpr std::size_t kTurns = 4;
+  struct Class {
+    std::size_t bodies = 0;
+    Real max_radius = 0;
+  };
+  std::array<std::array<Class, kRadiusClasses>, kTurns> classes_ = {};
+};
+
 /// Tasks for a pass over `bodies`, and where they begin.
 struct Chunks {
   std::size_t bodies, count;
@@ -198,7 +233,7 @@ class Sorter {
     std::size_t position = 0;
     for (std::size_t l = 0; l < out_.levels; ++l) {
       Grid<Cull>& grid = out_.grids[l];
-      grid = make_grid<Cull>(plan_.levels[l], min, max);
+      grid = make_grid<Cull>(plan_.levels[l], plan_.map, min, max);
       grid.begin = static_cast<std::uint32_t>(position);
       position += plan_.levels[l].bodies;
       grid.end = static_cast<std::uint32_t>(position);
@@ -255,10 +290,15 @@ class Sorter {
         visit(i, b, plan_.level_of_class[single ? 0 : class_of(b.r)]);
       }
     };
-    if (auto error = means_.run(chunks.count, [&](std::size_t chunk) {
-          std::uint32_t* const of = counts.of(chunk);
-          each(chunk, [&](std::size_t, const SphereOf<Real>&, std::size_t level) { ++of[level]; });
-        })) {
+    if (chunks.count == 1) {  // counted by the survey
+      for (std::size_t level = 0; level < levels; ++level) {
+        counts.of(0)[level] = static_cast<std::uint32_t>(plan_.levels[level].bodies);
+      }
+    } else if (auto error = means_.run(chunks.count, [&](std::size_t chunk) {
+                 std::uint32_t* const of = counts.of(chunk);
+                 each(chunk,
+                      [&](std::size_t, const SphereOf<Real>&, std::size_t level) { ++of[level]; });
+               })) {
       return error;
     }
     std::uint32_t starts[kRadiusClasses + 1];
@@ -427,13 +467,15 @@ std::optional<Error> survey(const Means& means, const Source<Real>& source, doub
     census.classes[0] = {census.bodies, static_cast<double>(out.extremes.max[3])};
   } else {
     const Classifier<Real> class_of(out.extremes.max[3]);
-    for (std::size_t i = 0; i < source.count; ++i) {
-      const SphereOf<Real> b = source[i];
-      if (out.extremes.invalid != 0 && !valid(b)) continue;
-      RadiusClass& c = census.classes[class_of(b.r)];
-      ++c.bodies;
-      c.max_radius = std::max(c.max_radius, static_cast<double>(b.r));
+    constexpr std::size_t kLeast = kParallelBodies / 4;
+    std::vector<ClassCounts<Real>> counts(means.pieces(source.count, kLeast));
+    if (auto error = means.run_pieces(
+            source.count, kLeast, [&](std::size_t piece, std::size_t begin, std::size_t end) {
+              counts[piece].count(source, class_of, out.extremes.invalid == 0, begin, end);
+            })) {
+      return error;
     }
+    for (const ClassCounts<Real>& piece : counts) piece.add_to(census.classes);
   }
   if (is_sparse(census)) {
     const double gap = 8 * (2 * static_cast<double>(out.extremes.max[3]) + margin);

@@ -3,6 +3,7 @@
 // Brings bodies into the order of the search: level by level, bucket by bucket, by id within a
 // bucket. The result depends on the set of bodies only.
 
+#include <algorithm>
 #include <array>
 #include <cstdint>
 #include <optional>
@@ -53,6 +54,19 @@ struct Means {
     }
     for (std::size_t task = 0; task < tasks; ++task) body(task);
     return std::nullopt;
+  }
+  static constexpr std::size_t kMaxPieces = 64;
+  /// Pieces of at least `least` elements that [0, count) is cut into.
+  [[nodiscard]] std::size_t pieces(std::size_t count, std::size_t least) const noexcept {
+    const std::size_t most = threads() == 1 ? 1 : std::min(kMaxPieces, std::size_t{8} * threads());
+    return std::clamp<std::size_t>(count / least, 1, most);
+  }
+  /// Runs body(piece, begin, end) for all of them.
+  template <class Body>
+  [[nodiscard]] std::optional<Error> run_pieces(std::size_t count, std::size_t least,
+                                                const Body& body) const {
+    const std::size_t all = pieces(count, least);
+    return run(all, [&](std::size_t p) { body(p, count * p / all, count * (p + 1) / all); });
   }
 };
 

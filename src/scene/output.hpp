@@ -1,18 +1,15 @@
 #pragma once
 
-// The last stage of the stateless doors: candidates of the search become the caller's output, in
-// the order asked for. What a door writes is its sink:
+// The last stage of the stateless doors: what the search found becomes the caller's output, in the
+// order asked for. What a door writes is its sink:
 //   capacity()                  how many fit
-//   write(list, begin, end, at) writes those of the list's [begin, end) that count, from `at` on;
-//                               returns their number
-//   move(from, count, to)       moves what was written
+//   write(list, begin, end, at) writes the list's [begin, end) from `at` on
 
 #include <fmt/format.h>
 
 #include <algorithm>
 #include <chrono>
 #include <cstdint>
-#include <cstring>
 #include <optional>
 #include <span>
 #include <vector>
@@ -36,41 +33,41 @@ class StopWatch {
   std::chrono::steady_clock::time_point last_ = std::chrono::steady_clock::now();
 };
 
-/// Candidates [begin, end) as pairs of ids, the lower first.
-inline std::size_t write_pairs(const std::uint32_t* ids, const Candidates& list, std::size_t begin,
-                               std::size_t end, IndexPair* out) noexcept {
-  for (std::size_t p = begin; p < end; ++p) {
-    const std::uint32_t a = ids[list.i[p]];
-    const std::uint32_t b = ids[list.j[p]];
-    *out++ = {std::min(a, b), std::max(a, b)};
-  }
-  return end - begin;
-}
+/// Pairs of ids as the output, the lower first.
+struct PairSink {
+  const std::uint32_t* ids;
+  std::span<IndexPair> out;
 
-/// Writes the lists one after the other. Returns the number written.
+  [[nodiscard]] std::uint64_t capacity() const noexcept { return out.size(); }
+  void write(const Candidates& list, std::size_t begin, std::size_t end,
+             std::size_t at) const noexcept {
+    for (std::size_t p = begin; p < end; ++p) {
+      const std::uint32_t a = ids[list.i[p]];
+      const std::uint32_t b = ids[list.j[p]];
+      out[at++] = {std::min(a, b), std::max(a, b)};
+    }
+  }
+};
+
+/// Fewest records of a piece of work.
+inline constexpr std::size_t kPieceRecords = 2048;
+
+/// Writes the lists one after the other; `written` becomes the number of records.
 template <class Sink>
-std::optional<Error> write_lists(const Means& means, std::span<TaskList> lists, const Sink& sink,
-                                 std::uint64_t& written) {
-  if (lists.size() == 1) {
-    written = sink.write(lists[0].list, 0, lists[0].list.count, 0);
-    return std::nullopt;
-  }
-  std::vector<std::size_t> starts(lists.size());
-  std::vector<std::size_t> counts(lists.size());
-  for (std::size_t t = 1; t < lists.size(); ++t) {
-    starts[t] = starts[t - 1] + lists[t - 1].list.count;
-  }
-  if (auto error = means.run(lists.size(), [&](std::size_t t) {
-        counts[t] = sink.write(lists[t].list, 0, lists[t].list.count, starts[t]);
-      })) {
-    return error;
-  }
-  written = 0;
-  for (std::size_t t = 0; t < lists.size(); ++t) {
-    if (written != starts[t] && counts[t] != 0) sink.move(starts[t], counts[t], written);
-    written += counts[t];
-  }
-  return std::nullopt;
+std::optional<Error> write_lists(const Means& means, std::span<const Candidates> lists,
+                                 const Sink& sink, std::uint64_t& written) {
+  std::vector<std::size_t> starts = {0};
+  for (const Candidates& list : lists) starts.push_back(starts.back() + list.count);
+  written = starts.back();
+  const auto write = [&](std::size_t, std::size_t begin, std::size_t end) {
+    for (std::size_t l = 0; begin < end; ++l) {
+      const std::size_t stop = std::min(end, starts[l + 1]);
+      if (stop <= begin) continue;
+      sink.write(lists[l], begin - starts[l], stop - starts[l], begin);
+      begin = stop;
+    }
+  };
+  return means.run_pieces(starts.back(), kPieceRecords, write);
 }
 
 /// Searches the ordered bodies and writes what is found, unless it does not fit: then
@@ -95,15 +92,16 @@ std::optional<Error> find_and_write(Workspace::State& state, const Means& means,
     report.contacts = dropped;
     return std::nullopt;
   }
-  std::optional<Error> error;
+  std::vector<Candidates> ordered;
   if (order == ContactOrder::space) {
-    error = write_lists(means, lists, sink, report.contacts);
+    for (const TaskList& task : lists) ordered.push_back(task.list);
   } else {
-    const IdOrder by_id{state.by_id, state.by_id_starts};
-    Candidates list;
-    error = order_by_ids(bodies.ids, id_count, lists, by_id, list);
-    if (!error) report.contacts = sink.write(list, 0, list.count, 0);
+    ordered.emplace_back();
+    if (auto error = order_by_ids(means, bodies.ids, id_count, lists, state.by_id, ordered[0])) {
+      return error;
+    }
   }
+  auto error = write_lists(means, ordered, sink, report.contacts);
   report.times.contacts_ns = watch.lap_ns();
   return error;
 }

@@ -1,7 +1,6 @@
 // The stateless door for boxes: checks the call, orders the boxes in float where float resolves
 // them and in double otherwise, searches and writes pairs.
 
-#include <cstring>
 #include <new>
 
 #include "base/float_environment.hpp"
@@ -11,21 +10,6 @@
 
 namespace harpoon {
 namespace {
-
-/// Candidates of boxes are pairs already.
-struct OverlapSink {
-  const std::uint32_t* ids;
-  std::span<IndexPair> out;
-
-  [[nodiscard]] std::uint64_t capacity() const noexcept { return out.size(); }
-  std::size_t write(const scene::Candidates& list, std::size_t begin, std::size_t end,
-                    std::size_t at) const noexcept {
-    return scene::write_pairs(ids, list, begin, end, out.data() + at);
-  }
-  void move(std::size_t source, std::size_t count, std::size_t to) const noexcept {
-    std::memmove(out.data() + to, out.data() + source, count * sizeof(IndexPair));
-  }
-};
 
 /// The call with one number type of culling. True when it was done, false when it has to be double.
 template <class Cull, class Real>
@@ -40,8 +24,8 @@ Result<bool> run_in(Workspace::State& state, const BoundsOf<Real>& boxes, std::s
   if (!done) return done.error();
   if (*done != scene::BoxOrder::done) return *done == scene::BoxOrder::nothing;
   report.times.order_ns = watch.lap_ns();
-  const scene::SearchRule rule{scene::SearchRule::Kind::boxes, &ordered, ordered.kRounded};
-  const OverlapSink sink{ordered.bodies.ids, out};
+  const scene::SearchRule rule{scene::SearchRule::Kind::boxes, &ordered, ordered.touching_unsure};
+  const scene::PairSink sink{ordered.bodies.ids, out};
   if (auto error = scene::find_and_write(state, means, ordered.bodies, rule, boxes.filters, sink,
                                          order, boxes.count, watch, report)) {
     return *std::move(error);

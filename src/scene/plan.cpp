@@ -6,6 +6,7 @@
 #include "scene/plan.hpp"
 
 #include <algorithm>
+#include <array>
 #include <cmath>
 #include <limits>
 
@@ -32,6 +33,12 @@ constexpr double kMaxCellsDouble = 0x1p28;
 /// of the radius.
 constexpr double kMaxRelativePad = 0.02;
 
+/// Up to this many candidates in a window its tests are made for short runs.
+constexpr double kShortRun = 6;
+/// Spheres nearer than by this part of the square of the largest reach touch, whatever culling
+/// rounded (docs/scene.md).
+constexpr double kDoubt = 0x1p-13;
+
 /// Vector tests for an average of `bodies` candidates in a window.
 double vector_tests(double bodies) noexcept {
   return 1 + kMoreTests * bodies * bodies / (kVectorBodies * (bodies + kVectorBodies));
@@ -52,52 +59,86 @@ struct Cut {
   double foreign_ns = 0;  ///< for each body of a finer level
 };
 
-Cut evaluate(const Census& census, LevelPlan level) noexcept {
-  const double bodies = static_cast<double>(level.bodies);
-  const double s = static_cast<double>(1U << level.row_shift);
-  const double row = s * level.sub_cell;
-  const double k = level.half_window;
-  const double cells_x = extent(census, 0) / level.cell_x + 1;
-  const double rows_y = extent(census, 1) / row + 1;
-  const double rows_z = extent(census, 2) / row + 1;
-  double buckets = (cells_x + k) * (rows_y + 1) * (rows_z + 1);
-  const double window[3] = {(2 * k + 1) * level.cell_x, row, row};
-  double share = 1;  // of the level's bodies in one window
-  for (int axis = 0; axis < 3; ++axis) {
-    share *= std::min(1.0, window[axis] / std::max(census.occupied[axis], level.sub_cell));
+constexpr std::array kWidenings = {1.0, 1.5, 2.0, 3.0};
+constexpr std::array kHalfWindows = {1U, 2U, 4U};
+constexpr std::array kRowShifts = {0U, 1U, 2U};
+
+/// What a choice of half_window decides along x.
+struct LineCut {
+  double cell, cells, share;  ///< cells of a line, part of the bodies in a window's extent
+};
+
+/// What a choice of row_shift decides along y and z.
+struct RowCut {
+  double windows;  ///< windows that a body looks into, its own row counted once
+  double others;   ///< those beside its own row
+  double rows_y, rows_z, share_y, share_z;
+};
+
+/// All cuts of a level whose sub-cell is given.
+class Cutter {
+ public:
+  Cutter(const Census& census, double sub_cell) noexcept : sub_cell_(sub_cell) {
+    const auto share = [&](double window, int axis) {
+      return std::min(1.0, window / std::max(census.occupied[axis], sub_cell));
+    };
+    for (std::size_t w = 0; w < kHalfWindows.size(); ++w) {
+      const double k = kHalfWindows[w];
+      const double cell = sub_cell / k;
+      lines_[w] = {cell, extent(census, 0) / cell + 1, share((2 * k + 1) * cell, 0)};
+    }
+    for (std::size_t r = 0; r < kRowShifts.size(); ++r) {
+      const double s = static_cast<double>(1U << kRowShifts[r]);
+      const double row = s * sub_cell;
+      const double windows = (1 + 1 / s) * (1 + 1 / s);
+      rows_[r] = {windows,
+                  windows + 1 / (s * s) - 1,
+                  extent(census, 1) / row + 1,
+                  extent(census, 2) / row + 1,
+                  share(row, 1),
+                  share(row, 2)};
+    }
   }
-  double candidates = share * bodies;
-  level.folded = buckets > kDenseBuckets * bodies + kMinBuckets;
-  if (level.folded) {
-    buckets = kFoldedBuckets * bodies + kMinBuckets;
-    candidates += (2 * k + 1) / kFoldedBuckets;
+
+  [[nodiscard]] Cut cut(std::size_t level_bodies, double cull_radius, std::size_t w,
+                        std::size_t r) const noexcept {
+    const LineCut& line = lines_[w];
+    const RowCut& row = rows_[r];
+    const double bodies = static_cast<double>(level_bodies);
+    const double k = kHalfWindows[w];
+    double buckets = (line.cells + k) * (row.rows_y + 1) * (row.rows_z + 1);
+    double candidates = line.share * row.share_y * row.share_z * bodies;
+    const bool folded = buckets > kDenseBuckets * bodies + kMinBuckets;
+    if (folded) {
+      buckets = kFoldedBuckets * bodies + kMinBuckets;
+      candidates += (2 * k + 1) / kFoldedBuckets;
+    }
+    const double full_test = kTestNs * vector_tests(candidates);
+    Cut cut;
+    cut.level = {level_bodies,  cull_radius,     sub_cell_, line.cell,
+                 kRowShifts[r], kHalfWindows[w], folded,    candidates};
+    cut.own_ns = bodies * (row.others * (kWindowNs + full_test) + kBodyNs + kWindowNs +
+                           kTestNs * vector_tests(candidates / 2)) +
+                 buckets * kBucketNs;
+    cut.foreign_ns = row.windows * (1.5 * kWindowNs + full_test);
+    return cut;
   }
-  const double rows = (1 + 1 / s) * (1 + 1 / s);
-  const double others = rows + 1 / (s * s) - 1;
-  Cut cut;
-  cut.level = level;
-  cut.own_ns = bodies * (others * (kWindowNs + kTestNs * vector_tests(candidates)) + kBodyNs +
-                         kWindowNs + kTestNs * vector_tests(candidates / 2)) +
-               buckets * kBucketNs;
-  cut.foreign_ns = rows * (1.5 * kWindowNs + kTestNs * vector_tests(candidates));
-  return cut;
-}
+
+ private:
+  double sub_cell_;
+  std::array<LineCut, kHalfWindows.size()> lines_;
+  std::array<RowCut, kRowShifts.size()> rows_;
+};
 
 /// The best cut of a level of the given bodies.
 Cut best_cut(const Census& census, std::size_t bodies, double cull_radius, bool only) noexcept {
   const double reach = std::max(2 * cull_radius, largest_extent(census) / kMaxCellsDouble);
   Cut best;
-  for (const double widening : {1.0, 1.5, 2.0, 3.0}) {
-    for (std::uint32_t shift = only ? 0 : 1; shift <= 2; ++shift) {
-      for (const std::uint32_t half_window : {1U, 2U, 4U}) {
-        LevelPlan level;
-        level.bodies = bodies;
-        level.max_radius = cull_radius;
-        level.sub_cell = reach * kReachScale * widening;
-        level.half_window = half_window;
-        level.cell_x = level.sub_cell / half_window;
-        level.row_shift = shift;
-        const Cut cut = evaluate(census, level);
+  for (const double widening : kWidenings) {
+    const Cutter cutter(census, reach * kReachScale * widening);
+    for (std::size_t r = only ? 0 : 1; r < kRowShifts.size(); ++r) {
+      for (std::size_t w = 0; w < kHalfWindows.size(); ++w) {
+        const Cut cut = cutter.cut(bodies, cull_radius, w, r);
         if (cut.own_ns < best.own_ns) best = cut;
       }
     }
@@ -245,12 +286,16 @@ Plan make_plan(const Census& census) noexcept {
 }
 
 template <class Cull>
-Grid<Cull> make_grid(const LevelPlan& level, const Cull min[3], const Cull max[3]) noexcept {
+Grid<Cull> make_grid(const LevelPlan& level, const CullMap& map, const Cull min[3],
+                     const Cull max[3]) noexcept {
   Grid<Cull> grid;
   std::copy(min, min + 3, grid.origin);
   grid.cells_per_unit_x = static_cast<Cull>(1 / level.cell_x);
   grid.sub_cells_per_unit = static_cast<Cull>(1 / level.sub_cell);
   grid.max_radius = static_cast<Cull>(level.max_radius * (1 + 0x1p-20));
+  grid.doubtful_below =
+      static_cast<Cull>(level.max_radius * (level.max_radius * kDoubt + 32 * map.radius_pad));
+  grid.short_runs = level.candidates <= kShortRun;
   grid.row_shift = level.row_shift;
   grid.half_window = level.half_window;
   const auto last = [](Cull top, Cull origin, Cull per_unit) {
@@ -276,7 +321,9 @@ Grid<Cull> make_grid(const LevelPlan& level, const Cull min[3], const Cull max[3
   return grid;
 }
 
-template Grid<float> make_grid(const LevelPlan&, const float[3], const float[3]) noexcept;
-template Grid<double> make_grid(const LevelPlan&, const double[3], const double[3]) noexcept;
+template Grid<float> make_grid(const LevelPlan&, const CullMap&, const float[3],
+                               const float[3]) noexcept;
+template Grid<double> make_grid(const LevelPlan&, const CullMap&, const double[3],
+                                const double[3]) noexcept;
 
 }  // namespace harpoon::scene

@@ -44,6 +44,7 @@ struct LevelPlan {
   std::uint32_t row_shift = 0;
   std::uint32_t half_window = 1;
   bool folded = false;
+  double candidates = 0;  ///< in a window, on average
 };
 
 struct Plan {
@@ -62,6 +63,7 @@ Plan make_plan(const Census& census) noexcept;
 /// The grid of a level, without its table and positions. `min` and `max` are the extremes of the
 /// bodies' culling coordinates.
 template <class Cull>
-Grid<Cull> make_grid(const LevelPlan& level, const Cull min[3], const Cull max[3]) noexcept;
+Grid<Cull> make_grid(const LevelPlan& level, const CullMap& map, const Cull min[3],
+                     const Cull max[3]) noexcept;
 
 }  // namespace harpoon::scene

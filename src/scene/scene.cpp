@@ -3,14 +3,17 @@
 // is in the list, and the list is in order of ids, so a frame costs one pass over it.
 
 #include <algorithm>
+#include <array>
+#include <atomic>
 #include <cmath>
 #include <cstring>
 #include <functional>
+#include <limits>
 #include <new>
 
 #include "base/float_environment.hpp"
 #include "scene/check.hpp"
-#include "scene/id_order.hpp"
+#include "scene/ordered_writer.hpp"
 #include "scene/workspace.hpp"
 
 namespace harpoon {
@@ -22,8 +25,11 @@ constexpr double kFramesPerSearch = 8;
 constexpr double kLargestMargin = 0.5;
 /// Part of half the margin that a body may use: the rest covers rounding.
 constexpr double kUsableMargin = 1 - 0x1p-8;
-/// Pairs of one task when threads share a frame.
-constexpr std::size_t kTaskPairs = 16384;
+/// Fewest bodies of a piece of work.
+constexpr std::size_t kPieceBodies = 8192;
+/// Bytes compared at a time: after each block of them the threads look whether one found a
+/// difference.
+constexpr std::size_t kCompareBlock = std::size_t{64} << 10;
 
 Error no_such_body() {
   return {Errc::invalid_index, "no such body"};
@@ -38,18 +44,20 @@ template <class Real>
 struct SceneOf<Real>::State {
   explicit State(Workspace made) noexcept : workspace(std::move(made)) {}
 
+  using Spheres = std::vector<SphereOf<Real>, scene::LargeAllocator<SphereOf<Real>>>;
+
   Workspace workspace;
-  std::vector<SphereOf<Real>> spheres;   ///< by id; a free id has radius -1
-  std::vector<SphereOf<Real>> searched;  ///< the spheres when `nearby` was made
+  Spheres spheres;   ///< by id; a free id has radius -1
+  Spheres searched;  ///< the spheres when `nearby` was made
   std::vector<std::uint32_t> category, collide, owner;
   std::vector<Rest> rest;
   std::vector<bool> taken;
   std::vector<std::uint32_t> free_ids;  ///< a heap, lowest first
   std::vector<std::uint32_t> excluded;
-  std::vector<std::size_t> task_hits;
-  scene::Buffer nearby_memory, contacts;
+  scene::IdOrderMemory nearby_memory;
+  scene::Buffer contacts;
   scene::Candidates nearby;
-  std::size_t contact_count = 0;
+  std::uint64_t contact_count = 0;
   double margin = 0;
   bool moved = true;    ///< since the last frame
   bool stale = true;    ///< `nearby` no longer fits the set of bodies or their rules
@@ -86,6 +94,9 @@ struct SceneOf<Real>::State {
     stale = moved = true;
   }
 
+  [[nodiscard]] scene::Means means() const noexcept {
+    return workspace.state().means(spheres.size());
+  }
   [[nodiscard]] Filters filters() const noexcept { return {category, collide, owner, rest}; }
   [[nodiscard]] scene::Source<Real> source() const noexcept {
     const SphereOf<Real>* s = spheres.data();
@@ -98,39 +109,60 @@ namespace {
 template <class Real>
 using StateOf = typename SceneOf<Real>::State;
 
+template <class Real>
+scene::Source<Real> source_of(const BodiesOf<Real>& b) {
+  return {b.x, b.y, b.z, b.r, b.stride_bytes, b.count};
+}
+
 /// Bits, not values: a NaN that stays is no change, a zero of another sign is one.
 template <class Real>
 bool same_bits(const void* a, const SphereOf<Real>* b, std::size_t spheres) {
   return std::memcmp(a, static_cast<const void*>(b), spheres * sizeof *b) == 0;
 }
 
-/// True when the view holds exactly the scene's spheres, bit by bit.
 template <class Real>
-bool same_spheres(const BodiesOf<Real>& bodies, const std::vector<SphereOf<Real>>& spheres) {
-  const scene::Source<Real> source{bodies.x,    bodies.y, bodies.z, bodies.r, bodies.stride_bytes,
-                                   bodies.count};
-  if (source.records()) {
-    return same_bits(bodies.x, spheres.data(), spheres.size());
-  }
-  for (std::size_t i = 0; i < bodies.count; ++i) {
+bool same_bits(const scene::Source<Real>& source, const SphereOf<Real>* spheres, std::size_t begin,
+               std::size_t end) {
+  if (source.records()) return same_bits(source.x + 4 * begin, spheres + begin, end - begin);
+  for (std::size_t i = begin; i < end; ++i) {
     const SphereOf<Real> b = source[i];
     if (!same_bits(&b, &spheres[i], 1)) return false;
   }
   return true;
 }
 
+/// True when the source holds exactly the scene's spheres, bit by bit.
 template <class Real>
-void copy_spheres(const BodiesOf<Real>& bodies, std::vector<SphereOf<Real>>& spheres) {
-  const scene::Source<Real> source{bodies.x,    bodies.y, bodies.z, bodies.r, bodies.stride_bytes,
-                                   bodies.count};
-  spheres.resize(bodies.count);
-  if (source.records()) {
-    if (bodies.count != 0) {
-      std::memcpy(static_cast<void*>(spheres.data()), bodies.x, bodies.count * sizeof spheres[0]);
+Result<bool> same_spheres(const StateOf<Real>& state, const scene::Source<Real>& source) {
+  constexpr std::size_t kBlock = kCompareBlock / sizeof(SphereOf<Real>);
+  std::atomic<bool> same{true};
+  const auto compare = [&](std::size_t, std::size_t begin, std::size_t end) {
+    for (; begin < end && same.load(std::memory_order_relaxed); begin += kBlock) {
+      if (!same_bits(source, state.spheres.data(), begin, std::min(end, begin + kBlock))) {
+        same = false;
+      }
     }
-    return;
+  };
+  if (auto error = state.means().run_pieces(source.count, kPieceBodies, compare)) {
+    return *std::move(error);
   }
-  for (std::size_t i = 0; i < bodies.count; ++i) spheres[i] = source[i];
+  return same.load();
+}
+
+/// Copies the source's bodies to `spheres`.
+template <class Real>
+std::optional<Error> copy_spheres(const scene::Means& means, const scene::Source<Real>& source,
+                                  typename StateOf<Real>::Spheres& spheres) {
+  spheres.resize(source.count);
+  SphereOf<Real>* const to = spheres.data();
+  const auto copy = [&](std::size_t, std::size_t begin, std::size_t end) {
+    if (source.records()) {
+      std::memcpy(static_cast<void*>(to + begin), source.x + 4 * begin, (end - begin) * sizeof *to);
+    } else {
+      for (std::size_t i = begin; i < end; ++i) to[i] = source[i];
+    }
+  };
+  return source.count == 0 ? std::nullopt : means.run_pieces(source.count, kPieceBodies, copy);
 }
 
 template <class T, class Element>
@@ -169,7 +201,7 @@ template <class Real>
 class Searcher {
  public:
   explicit Searcher(StateOf<Real>& state)
-      : state_(state), work_(state.workspace.state()), means_(work_.means(state.spheres.size())) {}
+      : state_(state), work_(state.workspace.state()), means_(state.means()) {}
 
   std::optional<Error> run() {
     state_.excluded.clear();
@@ -197,15 +229,8 @@ class Searcher {
     const scene::SearchRule rule{scene::SearchRule::Kind::near_spheres};
     if (auto error = scene::search(means_, bodies, rule, filter, 0, work_.search)) return error;
     const std::span<const scene::TaskList> lists(work_.search.lists.data(), work_.search.used);
-    scene::IdOrder memory{state_.nearby_memory, work_.by_id_starts};
-    if (auto error = scene::order_by_ids(bodies.ids, source.count, lists, memory, state_.nearby)) {
-      return error;
-    }
-    for (std::size_t p = 0; p < state_.nearby.count; ++p) {
-      state_.nearby.i[p] = bodies.ids[state_.nearby.i[p]];
-      state_.nearby.j[p] = bodies.ids[state_.nearby.j[p]];
-    }
-    return std::nullopt;
+    return scene::ids_in_order(means_, bodies.ids, source.count, lists, state_.nearby_memory,
+                               state_.nearby);
   }
 
   StateOf<Real>& state_;
@@ -219,52 +244,76 @@ std::optional<Error> collide_nearby(StateOf<Real>& state) {
   const std::size_t pairs = state.nearby.count;
   if (!state.contacts.reserve((pairs + 1) * sizeof(BodyContactOf<Real>))) return out_of_memory();
   auto* const out = state.contacts.template as<BodyContactOf<Real>>();
-  const scene::Means means = state.workspace.state().means(state.spheres.size());
-  const auto kernel = means.kernels->of<Real>().contacts;
-  const std::size_t tasks = means.threads() == 1 ? 1 : (pairs + kTaskPairs - 1) / kTaskPairs;
-  if (tasks <= 1) {
-    state.contact_count = kernel(state.spheres.data(), nullptr, state.nearby, 0, pairs, out);
+  const scene::Means means = state.means();
+  const auto make = [&](std::size_t begin, std::size_t end, BodyContactOf<Real>* to) {
+    return means.kernels->of<Real>().contacts(state.spheres.data(), nullptr, state.nearby, begin,
+                                              end, to);
+  };
+  if (means.threads() == 1 || pairs <= scene::kChunkRecords) {
+    state.contact_count = make(0, pairs, out);
     return std::nullopt;
   }
-  state.task_hits.assign(tasks, 0);
-  if (auto error = means.run(tasks, [&](std::size_t t) {
-        const std::size_t begin = t * kTaskPairs;
-        const std::size_t end = std::min(pairs, begin + kTaskPairs);
-        state.task_hits[t] =
-            kernel(state.spheres.data(), nullptr, state.nearby, begin, end, out + begin);
-      })) {
-    return error;
-  }
-  state.contact_count = 0;
-  for (std::size_t t = 0; t < tasks; ++t) {
-    std::memmove(static_cast<void*>(out + state.contact_count), out + t * kTaskPairs,
-                 state.task_hits[t] * sizeof *out);
-    state.contact_count += state.task_hits[t];
-  }
-  return std::nullopt;
+  const auto chunks =
+      static_cast<std::uint32_t>((pairs + scene::kChunkRecords - 1) / scene::kChunkRecords);
+  const auto make_chunk = [&](std::size_t chunk, BodyContactOf<Real>* to) {
+    const std::size_t begin = chunk * scene::kChunkRecords;
+    return make(begin, std::min(pairs, begin + scene::kChunkRecords), to);
+  };
+  return scene::write_in_order(means, chunks, state.workspace.state().scratch, out, make_chunk,
+                               state.contact_count);
 }
 
-/// Whether the list still holds every contact.
+/// The largest distance that a body has moved since the last search; infinite where that is not
+/// known.
 template <class Real>
-bool list_holds(const StateOf<Real>& state, const scene::Kernels<Real>& kernels) {
-  if (state.stale || state.margin <= 0) return false;
-  const double allowed = state.margin / 2 * kUsableMargin;
-  const double moved = static_cast<double>(
-      kernels.largest_move(state.searched.data(), state.spheres.data(), state.spheres.size()));
-  return moved <= allowed * allowed;
+Result<double> largest_move(const StateOf<Real>& state) {
+  const scene::Means means = state.means();
+  std::array<Real, scene::Means::kMaxPieces> squares = {};
+  if (auto error = means.run_pieces(state.spheres.size(), kPieceBodies,
+                                    [&](std::size_t piece, std::size_t begin, std::size_t end) {
+                                      squares[piece] = means.kernels->of<Real>().largest_move(
+                                          state.searched.data() + begin,
+                                          state.spheres.data() + begin, end - begin);
+                                    })) {
+    return *std::move(error);
+  }
+  return std::sqrt(static_cast<double>(*std::max_element(squares.begin(), squares.end())));
 }
 
-/// A margin for the speed since the last search; 0 where a list is not worth its while.
+/// A margin for bodies that moved so far since the last search; 0 where a list is not worth its
+/// while.
 template <class Real>
-double choose_margin(const StateOf<Real>& state, const scene::Kernels<Real>& kernels) {
+double choose_margin(const StateOf<Real>& state, double moved) {
   if (state.frames < 2) return 0;
-  const double moved = std::sqrt(static_cast<double>(kernels.largest_move(
-                           state.searched.data(), state.spheres.data(), state.spheres.size()))) /
-                       (state.frames - 1);
-  double radius = 0;
-  for (const SphereOf<Real>& s : state.spheres) radius = std::max(radius, static_cast<double>(s.r));
-  const double margin = 2 * kFramesPerSearch * moved;
+  const scene::Kernels<Real>& kernels = state.means().kernels->template of<Real>();
+  const scene::Source<Real> source = state.source();
+  const double radius =
+      std::max(0.0, static_cast<double>(kernels.extremes(source, 0, source.count).max[3]));
+  const double margin = 2 * kFramesPerSearch * moved / (state.frames - 1);
   return margin <= kLargestMargin * radius ? std::max(margin, 0x1p-6 * radius) : 0;
+}
+
+/// Makes `nearby` anew if bodies that moved so far may be in contact without being in it. Returns
+/// whether it was made.
+template <class Real>
+Result<bool> keep_nearby(StateOf<Real>& state) {
+  double moved = std::numeric_limits<double>::infinity();
+  if (state.frames >= 2) {
+    const Result<double> largest = largest_move<Real>(state);
+    if (!largest) return largest.error();
+    moved = *largest;
+  }
+  if (!state.stale && state.margin > 0 && moved <= state.margin / 2 * kUsableMargin) return false;
+  state.stale = true;  // until all of the following has succeeded
+  state.margin = choose_margin<Real>(state, moved);
+  state.frames = 0;
+  if (auto error = Searcher<Real>(state).run()) return *std::move(error);
+  if (auto error = copy_spheres<Real>(state.means(), state.source(), state.searched)) {
+    return *std::move(error);
+  }
+  state.stale = false;
+  state.frames = 1;
+  return true;
 }
 
 }  // namespace
@@ -296,11 +345,20 @@ std::optional<Error> SceneOf<Real>::set_bodies(const BodiesOf<Real>& bodies) noe
     if (auto error = scene::check(bodies)) return error;
     const bool same_set = bodies.count == s.spheres.size() && s.free_ids.empty();
     const bool rules_kept = same_set && same_rules(bodies.filters, s);
-    if (rules_kept && (bodies.count == 0 || same_spheres(bodies, s.spheres))) return std::nullopt;
+    const scene::Source<Real> source = source_of(bodies);
+    if (rules_kept) {
+      const Result<bool> same = same_spheres<Real>(s, source);
+      if (!same) return same.error();
+      if (*same) return std::nullopt;
+    }
     s.moved = true;
     if (!rules_kept) s.stale = true;
     if (!same_set) s.frames = 0;
-    copy_spheres(bodies, s.spheres);
+    const scene::Means means = s.workspace.state().means(bodies.count);
+    if (auto error = copy_spheres<Real>(means, source, s.spheres)) {
+      s.clear();
+      return error;
+    }
     if (!rules_kept) copy_rules(bodies.filters, s);
     s.taken.assign(bodies.count, true);
     s.free_ids.clear();
@@ -403,18 +461,10 @@ Result<FrameOf<Real>> SceneOf<Real>::detect() noexcept {
   if (s.moved) {
     try {
       const FloatEnvironment environment;
-      const scene::Kernels<Real>& kernels = s.workspace.state().kernels->template of<Real>();
       s.frames += s.frames != 0 ? 1 : 0;
-      if (!list_holds<Real>(s, kernels)) {
-        frame.searched = true;
-        s.stale = true;  // until all of the following has succeeded
-        s.margin = choose_margin<Real>(s, kernels);
-        s.frames = 0;
-        if (auto error = Searcher<Real>(s).run()) return *std::move(error);
-        s.searched = s.spheres;
-        s.stale = false;
-        s.frames = 1;
-      }
+      const Result<bool> searched = keep_nearby<Real>(s);
+      if (!searched) return searched.error();
+      frame.searched = *searched;
       if (auto error = collide_nearby<Real>(s)) return *std::move(error);
       s.moved = false;
     } catch (const std::bad_alloc&) {

@@ -5,7 +5,7 @@
 namespace harpoon::scene {
 namespace {
 
-/// Smallest list; also how many candidates may pile up beyond the limit before they are checked.
+/// Smallest list; also how many candidates may pile up beyond the limit before they are counted.
 constexpr std::size_t kMinList = 4096;
 /// Below this many bodies the search is not shared between threads.
 constexpr std::size_t kParallelBodies = 4096;
@@ -14,15 +14,15 @@ constexpr std::size_t kTasksPerThread = 8;
 /// Shared by the tasks of one search.
 struct Common {
   std::uint64_t limit;
-  std::uint64_t limit_of_list;  ///< a list that grows beyond this is checked first
+  std::uint64_t limit_of_list;  ///< a list that grows beyond this is counted first
   SearchRule::Kind kind;
-  std::atomic<std::uint64_t> kept{0};  ///< contacts in lists that had to check theirs
+  std::atomic<std::uint64_t> kept{0};  ///< contacts in lists that were counted
   std::atomic<bool> over_limit{false};
   std::atomic<bool> out_of_memory{false};
 };
 
-/// Makes room in the list of one task: filters, then checks what is there against the limit where
-/// it has come that far, then grows.
+/// Keeps the list of one task: only contacts where they are asked for, only pairs that count, none
+/// once there are more than the limit.
 template <class Real, class Cull>
 class Collector : public RoomMaker {
  public:
@@ -38,14 +38,36 @@ class Collector : public RoomMaker {
     return resize(kMinList);
   }
 
+  /// After a block, whose candidates may be doubtful.
+  void settle(Candidates& list, bool doubtful) noexcept {
+    if (doubtful && common_.kind == SearchRule::Kind::touching_spheres) {
+      kernels_.keep_hits(bodies_.spheres, bodies_.ids, settled_, list);
+    }
+    settled_ = list.count;
+  }
+
+  /// At the end of the task.
+  void finish(Candidates& list) noexcept {
+    drop_filtered(list);
+    if (common_.over_limit) count_against_limit(list);
+  }
+
+ private:
+  [[nodiscard]] bool limited() const noexcept {
+    return common_.kind != SearchRule::Kind::near_spheres;
+  }
+
+  /// In the middle of a block: filters, then looks whether the limit has been passed where there
+  /// are so many, then grows.
   void make(Candidates& list) noexcept {
+    settle(list, true);
     drop_filtered(list);
     if (list.count <= list.capacity / 2) return;
-    if (limited() && list.count > common_.limit_of_list) check(list);
+    if (limited() && list.count > common_.limit_of_list) count_against_limit(list);
     if (list.count <= list.capacity / 2) return;
     if (!resize(2 * list.capacity)) {
       common_.out_of_memory = true;
-      list.count = filtered_ = checked_ = 0;
+      list.count = settled_ = filtered_ = counted_ = 0;
     }
   }
 
@@ -58,28 +80,17 @@ class Collector : public RoomMaker {
       list.j[kept] = list.j[p];
       kept += counts ? 1 : 0;
     }
-    list.count = filtered_ = kept;
+    list.count = settled_ = filtered_ = kept;
   }
 
-  /// Leaves only true contacts in the list, and none at all once the limit is passed.
-  void check(Candidates& list) noexcept {
-    if (common_.kind == SearchRule::Kind::touching_spheres) {
-      kernels_.keep_hits(bodies_.spheres, bodies_.ids, checked_, list);
-    }
-    const std::uint64_t kept = common_.kept += list.count - checked_;
-    checked_ = filtered_ = list.count;
+  /// Once the limit is passed, contacts are only counted.
+  void count_against_limit(Candidates& list) noexcept {
+    const std::uint64_t kept = common_.kept += list.count - counted_;
+    counted_ = list.count;
     if (kept > common_.limit) common_.over_limit = true;
-    if (common_.over_limit) drop(list);
-  }
-
-  void drop(Candidates& list) noexcept {
+    if (!common_.over_limit) return;
     task_.dropped += list.count;
-    list.count = checked_ = filtered_ = 0;
-  }
-
- private:
-  [[nodiscard]] bool limited() const noexcept {
-    return common_.kind != SearchRule::Kind::near_spheres;
+    list.count = settled_ = filtered_ = counted_ = 0;
   }
 
   bool resize(std::size_t capacity) noexcept {
@@ -101,8 +112,9 @@ class Collector : public RoomMaker {
   const PairFilter& filter_;
   Common& common_;
   TaskList& task_;
-  std::size_t filtered_ = 0;
-  std::size_t checked_ = 0;
+  std::size_t settled_ = 0;   ///< of the list, known to be contacts
+  std::size_t filtered_ = 0;  ///< known to count
+  std::size_t counted_ = 0;   ///< counted against the limit
 };
 
 /// Blocks of all levels and of the scanned bodies after them, in one row of numbers.
@@ -181,26 +193,20 @@ std::optional<Error> search(const Means& means, const Ordered<Real, Cull>& bodie
     }
     const auto each = [&](std::size_t level, std::uint32_t begin, std::uint32_t end) {
       if (!common.out_of_memory.load(std::memory_order_relaxed)) {
-        task.tests += kernel(job, level, begin, end, task.list, collector);
+        const SearchResult found = kernel(job, level, begin, end, task.list, collector);
+        task.tests += found.tests;
+        collector.settle(task.list, found.doubtful);
       }
     };
     blocks.each(blocks.count() * t / tasks, blocks.count() * (t + 1) / tasks, each);
-    collector.drop_filtered(task.list);
-    if (common.over_limit) collector.check(task.list);
+    collector.finish(task.list);
   });
   if (error) return error;
   if (common.out_of_memory) return Error{Errc::out_of_memory, "out of memory"};
-  std::uint64_t kept = 0;
-  for (std::size_t t = 0; t < tasks; ++t) kept += memory.lists[t].list.count;
-  const bool limited = rule.kind != SearchRule::Kind::near_spheres;
-  if (!limited || (kept <= limit && !common.over_limit)) return std::nullopt;
+  if (rule.kind == SearchRule::Kind::near_spheres) return std::nullopt;
   std::uint64_t total = 0;
   for (std::size_t t = 0; t < tasks; ++t) {
-    Candidates& list = memory.lists[t].list;
-    if (rule.kind == SearchRule::Kind::touching_spheres) {
-      kernels.keep_hits(bodies.spheres, bodies.ids, 0, list);
-    }
-    total += list.count + memory.lists[t].dropped;
+    total += memory.lists[t].list.count + memory.lists[t].dropped;
   }
   if (total <= limit) return std::nullopt;
   for (std::size_t t = 0; t < tasks; ++t) {

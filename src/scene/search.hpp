@@ -44,26 +44,26 @@ struct TaskList {
   std::uint64_t dropped = 0;  ///< contacts found after the limit was passed
 };
 
-/// What the search leaves behind. When `dropped` is 0 in all lists, the lists hold all candidates,
-/// filtered, in order; some may turn out not to touch.
+/// What the search leaves behind. When `dropped` is 0 in all lists, the lists hold all pairs that
+/// were asked for, filtered, in order.
 struct SearchMemory {
   std::vector<TaskList> lists;
   std::size_t used = 0;  ///< lists of the latest search
 };
 
-/// What the ordered bodies are, and what their candidates are worth.
+/// What the ordered bodies are, and which pairs of them are asked for.
 struct SearchRule {
   enum class Kind : std::uint8_t {
-    near_spheres,      ///< every candidate is kept; `limit` does not count
-    touching_spheres,  ///< candidates may turn out not to touch
-    boxes,             ///< candidates overlap
+    near_spheres,      ///< those that culling finds, contacts among them; `limit` does not count
+    touching_spheres,  ///< contacts
+    boxes,             ///< overlaps
   };
   Kind kind = Kind::touching_spheres;
   const BoxJudge* judge = nullptr;  ///< of boxes
   bool judge_touching = false;
 };
 
-/// Searches. When more than `limit` contacts exist, they are counted, not kept: then the sum of
+/// Searches. When there are more than `limit` pairs, they are counted, not kept: then the sum of
 /// `dropped` over all lists is their exact number and all lists are empty.
 template <class Real, class Cull>
 std::optional<Error> search(const Means& means, const Ordered<Real, Cull>& bodies,

@@ -62,9 +62,10 @@ std::size_t Workspace::bytes() const noexcept {
                                                                &o.cull,
                                                                &state_->boxes.corners,
                                                                &state_->boxes.high,
-                                                               &state_->by_id,
-                                                               &state_->by_id_starts};
+                                                               &state_->boxes.low,
+                                                               &state_->scratch};
   for (const scene::Buffer* buffer : buffers) sum += buffer->bytes();
+  sum += state_->by_id.bytes();
   for (const scene::TaskList& list : state_->search.lists) sum += list.memory.bytes();
   return sum;
 }

@@ -7,6 +7,7 @@
 #include "base/executor.hpp"
 #include "harpoon/scene.hpp"
 #include "scene/boxes.hpp"
+#include "scene/id_order.hpp"
 #include "scene/order.hpp"
 #include "scene/search.hpp"
 
@@ -18,8 +19,8 @@ struct Workspace::State {
   scene::OrderMemory order;
   scene::BoxMemory boxes;
   scene::SearchMemory search;
-  scene::Buffer by_id;  ///< candidates in order of ids
-  scene::Buffer by_id_starts;
+  scene::IdOrderMemory by_id;
+  scene::Buffer scratch;  ///< of the writers of output
 
   [[nodiscard]] scene::Means means(std::size_t bodies) const noexcept;
 };

@@ -190,6 +190,59 @@ TYPED_TEST(OverlapTest, PlanesAndGroundsDoNotSpoilTheGrid) {
   EXPECT_LT(report->tests, alone->tests + 6 * boxes.size());
 }
 
+/// Boxes of side 1 on average, about ten to every one's neighbourhood, but long along some axes:
+/// infinite to one side or both, nowhere but at infinity, or much longer than the world is wide.
+template <class Real>
+std::vector<Box<Real>> long_boxes(std::array<bool, 3> is_long, bool infinite, int count,
+                                  std::uint64_t seed) {
+  const Real infinity = std::numeric_limits<Real>::infinity();
+  Dice dice(seed);
+  int axes = 3;
+  for (const bool l : is_long) axes -= l ? 1 : 0;
+  const double width = axes == 2 ? std::sqrt(count) : count;
+  std::vector<Box<Real>> boxes;
+  for (int i = 0; i < count; ++i) {
+    Box<Real> b;
+    const bool ordinary = dice.one_in(50);
+    const int ends = dice.integer(0, 9);
+    for (std::size_t axis = 0; axis < 3; ++axis) {
+      const double low = dice.uniform(0, width);
+      b[2 * axis] = static_cast<Real>(low);
+      b[2 * axis + 1] = static_cast<Real>(low + dice.uniform(0, 2));
+      if (!is_long[axis] || ordinary) continue;
+      if (!infinite) {
+        b[2 * axis] -= static_cast<Real>(dice.uniform(1e4, 1e6));
+        b[2 * axis + 1] += static_cast<Real>(dice.uniform(1e4, 1e6));
+      } else {
+        if (ends != 1) b[2 * axis] = ends == 2 ? infinity : -infinity;
+        if (ends != 0) b[2 * axis + 1] = ends == 3 ? -infinity : infinity;
+      }
+    }
+    boxes.push_back(b);
+  }
+  return boxes;
+}
+
+TYPED_TEST(OverlapTest, AxesAlongWhichAllBoxesAreLongAreLeftOutOfTheGrid) {
+  using Real = TypeParam;
+  for (unsigned axes = 1; axes < 7; ++axes) {
+    const std::array<bool, 3> is_long = {(axes & 1) != 0, (axes & 2) != 0, (axes & 4) != 0};
+    for (const bool infinite : {false, true}) {
+      const auto boxes = long_boxes<Real>(is_long, infinite, kManyBoxes / 4, kSeed + axes);
+      const auto expected = overlapping(boxes);
+      EXPECT_GT(expected.size(), boxes.size() / 2);
+      for (const unsigned threads : {1U, 3U}) {
+        Workspace means = workspace(threads);
+        std::vector<IndexPair> out(expected.size());
+        const auto report = overlap_pairs(means, view(boxes), std::span(out));
+        ASSERT_TRUE(report.ok()) << report.error().message;
+        EXPECT_TRUE(same(sorted_by_ids(out), expected)) << "axes " << axes << " " << infinite;
+        EXPECT_LT(report->tests, 60 * boxes.size()) << "axes " << axes << " infinite " << infinite;
+      }
+    }
+  }
+}
+
 TYPED_TEST(OverlapTest, TouchingIsOverlapAndAnUlpApartIsNot) {
   using Real = TypeParam;
   // Far from the middle of the world, where the search's own numbers cannot tell.

@@ -14,6 +14,7 @@
 #include "hwy/highway.h"
 
 #include "base/instruction_set.hpp"
+#include "collide/copy_sphere.inl"
 #include "collide/simd.inl"
 #include "device/cpu/records.inl"
 
@@ -226,14 +227,6 @@ std::size_t collide_arrays(const SpherePairArraysOf<Real>& p, std::size_t begin,
 /// the records stay in the first-level cache.
 constexpr std::size_t kGatherBlock = 128;
 
-template <class Real>
-HWY_INLINE void copy_sphere(const SphereOf<Real>& from, SphereOf<Real>& to) {
-  const hn::CappedTag<Real, 4> d;
-  for (std::size_t k = 0; k < 4; k += hn::Lanes(d)) {
-    hn::StoreU(hn::LoadU(d, &from.x + k), d, &to.x + k);
-  }
-}
-
 /// Which of one vector of pairs touch, one bit a lane (see pair_of_lane).
 template <class Real>
 HWY_INLINE std::uint64_t hit_lanes(const simd::Separation<Number<Real>>& separation) {
@@ -279,8 +272,8 @@ HWY_INLINE void gather_in_lane_order(const SphereOf<Real>* spheres, const IndexP
     const std::size_t used = std::min(lanes, count - first);
     for (std::size_t lane = 0; lane < used; ++lane) {
       SpherePairOf<Real>& to = block[first + slots.of_lane[lane]];
-      copy_sphere(spheres[pairs[first + lane].g1], to.s1);
-      copy_sphere(spheres[pairs[first + lane].g2], to.s2);
+      simd::copy_sphere(spheres[pairs[first + lane].g1], to.s1);
+      simd::copy_sphere(spheres[pairs[first + lane].g2], to.s2);
     }
     for (std::size_t lane = used; lane < lanes; ++lane) {
       SpherePairOf<Real>& to = block[first + slots.of_lane[lane]];
@@ -344,8 +337,8 @@ void fill_hits(const SphereOf<Real>* spheres, const IndexPair* pairs, const std:
     const std::size_t size = std::min(kGatherBlock, count - base);
     for (std::size_t k = 0; k < size; ++k) {
       const IndexPair& pair = pairs[hits[base + k]];
-      copy_sphere(spheres[pair.g1], in[k].s1);
-      copy_sphere(spheres[pair.g2], in[k].s2);
+      simd::copy_sphere(spheres[pair.g1], in[k].s1);
+      simd::copy_sphere(spheres[pair.g2], in[k].s2);
     }
     pairs_cached(in, size, out);
     for (std::size_t k = 0; k < size; ++k) {

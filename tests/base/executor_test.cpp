@@ -21,7 +21,7 @@ TEST(Executor, RunsEveryTaskOnce) {
   for (const unsigned threads : {1u, 2u, 7u}) {
     Executor executor(threads, {});
     EXPECT_EQ(executor.threads(), threads);
-    for (const std::size_t tasks : {0, 1, 2, 1000}) {
+    for (const std::size_t tasks : {0U, 1U, 2U, 1000U}) {
       std::vector<std::atomic<int>> ran(tasks);
       EXPECT_FALSE(executor.run(tasks, [&](std::size_t task) { ++ran[task]; }));
       for (const auto& count : ran) EXPECT_EQ(count, 1);

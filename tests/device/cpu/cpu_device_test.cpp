@@ -52,7 +52,7 @@ TEST(CpuDevice, IsNamedAndDoesEverything) {
 
 TEST(CpuDevice, RunsBatchesOfEverySize) {
   const auto device = cpu();
-  for (const std::size_t count : {0, 1, 2, 15, 16, 17, 1000, 32767, 32768, 100001}) {
+  for (const std::size_t count : {0U, 1U, 2U, 15U, 16U, 17U, 1000U, 32767U, 32768U, 100001U}) {
     expect_right(*device, count);
   }
 }

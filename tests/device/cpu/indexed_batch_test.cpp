@@ -57,7 +57,8 @@ void expect_prefix(const Scene<Real>& scene, const std::vector<BodyContactOf<Rea
 
 TYPED_TEST(Indexed, WritesTheHitsInPairOrder) {
   for (const std::string& name : cpu_instruction_sets()) {
-    for (const std::size_t pairs : {0, 1, 7, 8, 17, 1000, 1024, 1025, 8192, 30003, 200003}) {
+    for (const std::size_t pairs :
+         {0U, 1U, 7U, 8U, 17U, 1000U, 1024U, 1025U, 8192U, 30003U, 200003U}) {
       const auto scene = random_scene<TypeParam>(pairs, 500, pairs);
       CpuOptions options;
       options.instruction_set = name;
@@ -79,7 +80,7 @@ TYPED_TEST(Indexed, WritesTheHitsInPairOrder) {
 }
 
 TYPED_TEST(Indexed, AFullOutputHoldsTheFirstHitsAndTheErrorSaysHowManyThereAre) {
-  for (const std::size_t pairs : {100, 100000, 100001}) {
+  for (const std::size_t pairs : {100U, 100000U, 100001U}) {
     CpuOptions options;
     options.threads = 1 + static_cast<unsigned>(pairs % 2);
     const auto device = make_cpu_device(options);
@@ -99,7 +100,7 @@ TYPED_TEST(Indexed, AFullOutputHoldsTheFirstHitsAndTheErrorSaysHowManyThereAre) 
 
 TYPED_TEST(Indexed, ABadIndexIsNamedAndNothingIsWritten) {
   const auto device = make_cpu_device();
-  for (const std::size_t pairs : {10, 50000}) {
+  for (const std::size_t pairs : {10U, 50000U}) {
     auto scene = random_scene<TypeParam>(5, 64, pairs);
     scene.pairs[pairs - 3].g2 = 64;
     std::vector<BodyContactOf<TypeParam>> contacts(pairs);

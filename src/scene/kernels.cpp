@@ -295,7 +295,7 @@ HWY_NOINLINE ListEnd make_room(ListEnd end, Candidates& list, RoomMaker& room) {
 /// What a search carries from test to test: the end of its list and the doubt about it.
 template <class Shape>
 struct Cursor : ListEnd {
-  typename Shape::Doubt doubt;
+  [[no_unique_address]] typename Shape::Doubt doubt;
 
   HWY_INLINE explicit Cursor(const Candidates& list) : ListEnd(end_of(list)) {}
 };
@@ -757,6 +757,20 @@ HWY_INLINE void fill_foreign_cells(const SearchJob<double>& job, const Grid<doub
   }
 }
 
+/// The selected bodies against the row `offset` buckets away from the first one of each.
+template <class Shape, class Cull>
+HWY_INLINE Cursor<Shape> search_row(const BlockSearch<Shape>& block, const Grid<Cull>& grid,
+                                    const ForeignCells& cells, const Selection& who,
+                                    std::uint32_t offset, Cursor<Shape> cursor,
+                                    std::uint64_t& tested) {
+  for (std::uint32_t n = 0; n < who.count; ++n) {
+    const std::uint32_t k = who.offset[n];
+    const std::uint32_t first = (cells.first[k] + offset) & grid.mask;
+    cursor = test_buckets(block, grid, k, first, cells.length[k], cursor, tested);
+  }
+  return cursor;
+}
+
 /// A block against the bodies of a coarser level.
 template <class Shape, class Cull>
 HWY_NOINLINE SearchResult search_coarser_level(const SearchJob<Cull>& job, const Grid<Cull>& grid,
@@ -767,17 +781,12 @@ HWY_NOINLINE SearchResult search_coarser_level(const SearchJob<Cull>& job, const
   const BlockSearch<Shape> block{job, begin, list, room};
   Cursor<Shape> cursor(list);
   std::uint64_t tested = 0;
-  const auto rows = [&](const Selection& who, std::uint32_t offset) HWY_ATTR {
-    for (std::uint32_t n = 0; n < who.count; ++n) {
-      const std::uint32_t k = who.offset[n];
-      const std::uint32_t first = (cells.first[k] + offset) & grid.mask;
-      cursor = test_buckets(block, grid, k, first, cells.length[k], cursor, tested);
-    }
-  };
-  rows(cells.all, 0);
-  rows(cells.next_y, grid.stride_y);
-  rows(cells.next_z, grid.stride_z);
-  rows(cells.next_both, grid.stride_y + grid.stride_z);
+  const std::uint32_t y = grid.stride_y;
+  const std::uint32_t z = grid.stride_z;
+  cursor = search_row(block, grid, cells, cells.all, 0, cursor, tested);
+  cursor = search_row(block, grid, cells, cells.next_y, y, cursor, tested);
+  cursor = search_row(block, grid, cells, cells.next_z, z, cursor, tested);
+  cursor = search_row(block, grid, cells, cells.next_both, y + z, cursor, tested);
   list.count = cursor.count;
   return {tested, cursor.doubt.below(grid.doubtful_below)};
 }

@@ -12,11 +12,19 @@
 namespace harpoon::test {
 namespace {
 
+/// How many scenes of each kind of space. The soak asks for more.
+std::uint64_t scenes() {
+  static const std::uint64_t count = [] {
+    const char* const wanted = std::getenv("HARPOON_TEST_SCENES");
 #if defined(__SANITIZE_ADDRESS__) || defined(__SANITIZE_THREAD__)
-constexpr std::uint64_t kScenes = 12;
+    const int usual = 12;
 #else
-constexpr std::uint64_t kScenes = 200;
+    const int usual = 200;
 #endif
+    return static_cast<std::uint64_t>(wanted == nullptr ? usual : std::atoi(wanted));
+  }();
+  return count;
+}
 constexpr int kSteps = 100;
 
 class Ode : public ::testing::Environment {
@@ -98,18 +106,18 @@ bool run_scene(std::uint64_t seed, const WorldPlan& plan, Seen& seen) {
 
 void run_scenes(SpaceKind kind) {
   Seen seen;
-  for (std::uint64_t seed = 1; seed <= kScenes; ++seed) {
+  for (std::uint64_t seed = 1; seed <= scenes(); ++seed) {
     ASSERT_TRUE(run_scene(seed, plan_of(seed, kind), seen));
   }
-  EXPECT_GT(seen.callbacks, 1000 * kScenes);
-  EXPECT_GT(seen.contacts, 100 * kScenes);
-  EXPECT_GT(seen.toggled, 10 * kScenes);
-  EXPECT_GT(seen.added, kScenes);
-  EXPECT_GT(seen.removed, kScenes);
-  EXPECT_GT(seen.nested, kScenes);
-  EXPECT_GT(seen.between_spaces, 10 * kScenes);
-  EXPECT_GT(seen.moved_between, kScenes / 2);
-  std::cout << kScenes << " scenes: " << seen.callbacks << " callbacks, " << seen.contacts
+  EXPECT_GT(seen.callbacks, 1000 * scenes());
+  EXPECT_GT(seen.contacts, 100 * scenes());
+  EXPECT_GT(seen.toggled, 10 * scenes());
+  EXPECT_GT(seen.added, scenes());
+  EXPECT_GT(seen.removed, scenes());
+  EXPECT_GT(seen.nested, scenes());
+  EXPECT_GT(seen.between_spaces, 10 * scenes());
+  EXPECT_GT(seen.moved_between, scenes() / 2);
+  std::cout << scenes() << " scenes: " << seen.callbacks << " callbacks, " << seen.contacts
             << " contacts, " << seen.nested << " nested calls\n";
 }
 
@@ -117,7 +125,7 @@ void run_scenes(SpaceKind kind) {
 void run_and_exit(SpaceKind kind) {
   Seen seen;
   bool same = true;
-  for (std::uint64_t seed = 1; seed <= std::min<std::uint64_t>(kScenes / 2, 16); ++seed) {
+  for (std::uint64_t seed = 1; seed <= std::min<std::uint64_t>(scenes() / 2, 16); ++seed) {
     WorldPlan plan = plan_of(seed, kind);
     plan.few_movers = true;
     plan.all_enabled = seed % 2 == 0;

@@ -313,11 +313,10 @@ void World::near_nested(void* data, dGeomID o1, dGeomID o2) {
 
 void World::note_contacts(dGeomID o1, dGeomID o2, int flags) {
   if (dGeomIsSpace(o1) != 0 || dGeomIsSpace(o2) != 0) return;
-  // libode's collider for a cylinder and a box aborts when their axes are aligned.
+  // libode's colliders for a box and a box, capsule or cylinder abort where axes are aligned or
+  // many corners fall together.
   const int class1 = dGeomGetClass(o1), class2 = dGeomGetClass(o2);
-  if (std::min(class1, class2) == dBoxClass && std::max(class1, class2) == dCylinderClass) return;
-  // So does that for boxes, where many of their corners fall together.
-  if (plan_.lattice && class1 == dBoxClass && class2 == dBoxClass) return;
+  if (std::min(class1, class2) == dBoxClass && std::max(class1, class2) <= dCylinderClass) return;
   // And those for a ray and a sphere without extent, where the ray ends in it.
   const bool has_ray = class1 == dRayClass || class2 == dRayClass;
   for (const dGeomID geom : {o1, o2}) {

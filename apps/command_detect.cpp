@@ -4,7 +4,9 @@
 #include <fmt/ostream.h>
 
 #include <CLI/CLI.hpp>
+#include <algorithm>
 #include <cstdio>
+#include <exception>
 #include <iostream>
 
 #include "apps/command.hpp"
@@ -16,6 +18,9 @@
 
 namespace harpoon::app {
 namespace {
+
+/// Bodies that are left out and named; JSON lists all of them.
+constexpr std::size_t kMostNamed = 10;
 
 struct DetectOptions {
   std::string file;
@@ -47,6 +52,16 @@ struct Found {
   std::vector<std::uint32_t> excluded;
 };
 
+void enlarge(std::vector<BodyContactF64>& contacts, std::uint64_t needed) {
+  try {
+    contacts.resize(needed);
+  } catch (const std::exception&) {
+    throw CommandError(ExitCode::environment,
+                       fmt::format("no memory for all {} contacts ({:.1f} GB)", needed,
+                                   static_cast<double>(needed) * sizeof(BodyContactF64) * 1e-9));
+  }
+}
+
 Found find_contacts(const FileBodies& bodies, const DetectOptions& options) {
   Workspace workspace = value_or_throw(Workspace::make({.threads = options.threads}));
   BodiesF64 view{std::span<const SphereF64>(bodies.spheres)};
@@ -57,7 +72,7 @@ Found find_contacts(const FileBodies& bodies, const DetectOptions& options) {
   found.contacts.resize(4 * bodies.spheres.size());
   auto report = detect(workspace, view, std::span(found.contacts), order);
   if (!report && report.error().code == Errc::capacity) {
-    found.contacts.resize(report.error().needed);
+    enlarge(found.contacts, report.error().needed);
     report = detect(workspace, view, std::span(found.contacts), order);
   }
   const DetectReport done = value_or_throw(std::move(report));
@@ -101,9 +116,18 @@ void run(const Context& context, const DetectOptions& options) {
   } else {
     write_file(options.output, write);
   }
-  fmt::print(stderr, "{} bodies, {} contacts\n", bodies.spheres.size(), found.contacts.size());
-  for (const std::uint32_t id : found.excluded) {
-    fmt::print(stderr, "body {} is left out: not finite, too large or of negative radius\n", id);
+  const auto number = [](std::size_t count, const char* one, const char* several) {
+    return fmt::format("{} {}", count, count == 1 ? one : several);
+  };
+  fmt::print(stderr, "{}, {}\n", number(bodies.spheres.size(), "body", "bodies"),
+             number(found.contacts.size(), "contact", "contacts"));
+  const std::size_t named = std::min(found.excluded.size(), kMostNamed);
+  for (std::size_t k = 0; k < named; ++k) {
+    fmt::print(stderr, "body {} is left out: not finite, too large or of negative radius\n",
+               found.excluded[k]);
+  }
+  if (found.excluded.size() > named) {
+    fmt::print(stderr, "and {} more\n", found.excluded.size() - named);
   }
 }
 

@@ -5,6 +5,8 @@
 #include <algorithm>
 #include <array>
 #include <charconv>
+#include <cmath>
+#include <cstdlib>
 #include <nlohmann/json.hpp>
 #include <optional>
 
@@ -56,17 +58,37 @@ std::string_view trimmed(std::string_view text) {
   return text;
 }
 
-/// The whole of `text` as a number; "nan" and "inf" are numbers.
-template <class T>
-bool parse(std::string_view text, T& out) {
-  const auto [end, error] = std::from_chars(text.data(), text.data() + text.size(), out);
-  return error == std::errc() && end == text.data() + text.size() && !text.empty();
+/// What is wrong with a text that should be a number, or null.
+using Fault = const char*;
+
+/// The whole of `text` as a number; "nan" and "inf" are numbers, and what is too small is 0.
+Fault parse(std::string_view text, double& out) {
+  constexpr Fault kNoNumber = "is not a number";
+  if (text.size() > 1 && text[0] == '+' && text[1] != '-') text.remove_prefix(1);
+  const char* const all = text.data() + text.size();
+  const auto [end, error] = std::from_chars(text.data(), all, out);
+  if (text.empty() || end != all || error == std::errc::invalid_argument) return kNoNumber;
+  if (error != std::errc::result_out_of_range) return nullptr;
+  out = std::strtod(std::string(text).c_str(), nullptr);
+  return std::isfinite(out) ? nullptr : "is too large";
+}
+
+Fault parse(std::string_view text, std::uint32_t& out) {
+  const char* const all = text.data() + text.size();
+  const auto [end, error] = std::from_chars(text.data(), all, out);
+  const bool parsed = error == std::errc() && end == all && !text.empty();
+  return parsed ? nullptr : "is not a whole number of 32 bits";
 }
 
 /// Lines of a CSV text and where one is in them.
 class CsvReader {
  public:
-  explicit CsvReader(std::string_view text) : text_(text) {}
+  explicit CsvReader(std::string_view text) : text_(text) {
+    constexpr std::string_view kByteOrderMark = "\xEF\xBB\xBF";
+    if (text_.substr(0, kByteOrderMark.size()) == kByteOrderMark) {
+      text_.remove_prefix(kByteOrderMark.size());
+    }
+  }
 
   BodiesOrError read(const ReadProgress& progress) {
     Pace pace(progress, text_.size());
@@ -142,13 +164,11 @@ class CsvReader {
         return fail(column, fmt::format("more than {} fields", columns_.size()));
       }
       const std::size_t field = columns_[i];
-      const bool parsed = field < kNumbers  ? parse(text, values.numbers[field])
+      const Fault fault = field < kNumbers  ? parse(text, values.numbers[field])
                           : field == kGroup ? parse(text, values.group)
                                             : parse(text, values.mask);
-      if (parsed) return true;
-      return fail(column, fmt::format("\"{}\" is not {} for {}", text,
-                                      field < kNumbers ? "a number" : "a whole number of 32 bits",
-                                      kFields[field]));
+      if (fault == nullptr) return true;
+      return fail(column, fmt::format("\"{}\" {} for {}", text, fault, kFields[field]));
     });
     if (!read) return false;
     if (fields < columns_.size()) {
@@ -168,6 +188,9 @@ class CsvReader {
   FileBodies bodies_;
   TextError error_;
 };
+
+/// The parser's name for a number beyond the range of double.
+constexpr int kNumberOverflow = 406;
 
 /// Builds bodies while the JSON text is parsed, so that an error has a place in the text.
 class JsonHandler final : public nlohmann::json_sax<nlohmann::json> {
@@ -236,11 +259,12 @@ class JsonHandler final : public nlohmann::json_sax<nlohmann::json> {
     in_list_ = false;
     return true;
   }
-  bool parse_error(std::size_t position, const std::string&,
+  bool parse_error(std::size_t position, const std::string& token,
                    const nlohmann::detail::exception& what) override {
     if (!error_) {
       error_ = at(position == 0 ? 0 : position - 1, "");
-      const std::string message = what.what();
+      const std::string message =
+          what.id == kNumberOverflow ? fmt::format(": \"{}\" is too large", token) : what.what();
       const std::size_t colon = message.find(": ");
       error_->reason = colon == std::string::npos ? message : message.substr(colon + 2);
     }

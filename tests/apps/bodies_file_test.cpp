@@ -40,6 +40,12 @@ TEST(BodiesFile, ReadsCsv) {
   EXPECT_EQ(b.mask, (std::vector<std::uint32_t>{7, 4294967295U}));
   EXPECT_EQ(b.group, (std::vector<std::uint32_t>{1, 1}));
   EXPECT_TRUE(bodies(read_bodies_csv("x,y,z,r\n")).spheres.empty());
+  // What spreadsheets and Fortran programs write.
+  const FileBodies marked = bodies(read_bodies_csv("\xEF\xBB\xBFx,y,z,r\n+1.5,-2,+3E+1,1e-999\n"));
+  ASSERT_EQ(marked.spheres.size(), 1U);
+  EXPECT_EQ(marked.spheres[0].x, 1.5);
+  EXPECT_EQ(marked.spheres[0].z, 30);
+  EXPECT_EQ(marked.spheres[0].r, 0);
   EXPECT_TRUE(bodies(read_bodies_csv("x,y,z,r\n0,0,0,1\n")).mask.empty());
 }
 
@@ -55,6 +61,9 @@ TEST(BodiesFile, NamesLineAndColumnOfBadCsv) {
       {"x,y,z,r,group\n1,2,3,4,-5\n", 2, 9, "32 bits"},
       {"x,y,z,r\n1,,3,4\n", 2, 3, "not a number"},
       {"x,y,z,r\n1,2 2,3,4\n", 2, 3, "not a number"},
+      {"x,y,z,r\n1,+-2,3,4\n", 2, 3, "not a number"},
+      {"x,y,z,r\n1,-1e999,3,4\n", 2, 3, "too large"},
+      {"\xEF\xBB\xBFx,y,z,s\n", 1, 7, "unknown column"},
   };
   for (const Bad& bad : all) expect_error(read_bodies_csv(bad.text), bad);
 }
@@ -88,7 +97,7 @@ TEST(BodiesFile, NamesLineOfBadJson) {
       {"{\"spheres\":[]}", 1, "unknown key"},
       {"{}", 1, "no array"},
       {"[{\"x\":1,\"y\":1,\"z\":1,\"r\":1,\"mask\":-1}]", 1, "32 bits"},
-      {"[{\"x\":1e999}]", 1, ""},
+      {"[{\"x\":1e999}]", 1, "\"1e999\" is too large"},
       {"[[]]", 1, "an array"},
   };
   for (const auto& bad : all) {

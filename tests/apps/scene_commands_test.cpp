@@ -38,6 +38,18 @@ TEST(DetectCommand, WritesCsvInOrderOfIds) {
   EXPECT_TRUE(contains(f.err, "body 4 is left out"));
 }
 
+TEST(DetectCommand, NamesTheFirstOfManyBodiesThatAreLeftOut) {
+  const ScratchFolder folder;
+  std::string text = "x,y,z,r\n0,0,0,1\n";
+  for (int k = 0; k < 1000; ++k) text += "0,0,0,-1\n";
+  write_file(folder / "bodies.csv", text);
+  const Finished f = run_piped({"detect", (folder / "bodies.csv").string()});
+  EXPECT_EQ(f.exit_code, 0) << f.err;
+  EXPECT_TRUE(contains(f.err, "body 1 is left out"));
+  EXPECT_TRUE(contains(f.err, "990 more"));
+  EXPECT_LT(f.err.size(), 2000U);
+}
+
 TEST(DetectCommand, WritesJsonToAFileFromJson) {
   const ScratchFolder folder;
   write_file(folder / "bodies.json",

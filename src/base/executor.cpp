@@ -13,7 +13,7 @@
 
 #include "base/float_environment.hpp"
 
-#if defined(__SANITIZE_THREAD__)
+#if defined(HARPOON_TELLS_THREAD_SANITIZER)
 #include <sanitizer/tsan_interface.h>
 #endif
 
@@ -22,7 +22,7 @@ namespace {
 
 // oneTBB is not instrumented, so the thread sanitizer is told what parallel_for promises: what was
 // before the call comes before every task, and every task before the return.
-#if defined(__SANITIZE_THREAD__)
+#if defined(HARPOON_TELLS_THREAD_SANITIZER)
 void publish(void* point) {
   __tsan_release(point);
 }

@@ -99,6 +99,7 @@ struct SceneOf<Real>::State {
   }
   [[nodiscard]] Filters filters() const noexcept { return {category, collide, owner, rest}; }
   [[nodiscard]] scene::Source<Real> source() const noexcept {
+    if (spheres.empty()) return {};
     const SphereOf<Real>* s = spheres.data();
     return {&s->x, &s->y, &s->z, &s->r, sizeof *s, spheres.size()};
   }

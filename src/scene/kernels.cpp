@@ -488,35 +488,20 @@ struct BlockSearch {
   RoomMaker& room;
 };
 
-/// Positions that are tested before the list is looked at for room again.
-constexpr std::uint32_t kRunBodies = 512;
-
-/// The first `count` lanes, at most 2^31 - 1.
-template <class D>
-HWY_INLINE hn::Mask<D> first_lanes(D d, std::uint32_t count) {
-  const hn::RebindToSigned<D> di;
-  const auto bound = hn::Set(di, static_cast<hn::TFromD<decltype(di)>>(count));
-  return hn::RebindMask(d, hn::Gt(bound, hn::Iota(di, 0)));
-}
-
 /// Body i against the sorted positions [first, end).
 template <class Shape>
 HWY_INLINE Cursor<Shape> test_run(const BlockSearch<Shape>& block, std::uint32_t i,
                                   std::uint32_t first, std::uint32_t end, Cursor<Shape> cursor) {
   const typename Shape::Lanes d;
   const auto lanes = static_cast<std::uint32_t>(hn::Lanes(d));
+  const Shape body(block.job, i);
   std::uint32_t j = first;
   do {
-    // Before the body is loaded: nothing of it has to survive the call.
-    if (HWY_UNLIKELY(cursor.count + kRunBodies > cursor.capacity)) {
+    append(d, body.near(block.job, i, j, hn::FirstN(d, end - j), cursor.doubt), i, j, cursor);
+    if (HWY_UNLIKELY(cursor.count + kMaxLanes > cursor.capacity)) {
       static_cast<ListEnd&>(cursor) = make_room(cursor, block.list, block.room);
     }
-    const Shape body(block.job, i);
-    const std::uint32_t stop = j + std::min(end - j, kRunBodies);
-    do {
-      append(d, body.near(block.job, i, j, first_lanes(d, stop - j), cursor.doubt), i, j, cursor);
-      j += lanes;
-    } while (HWY_UNLIKELY(j < stop));
+    j += lanes;
   } while (HWY_UNLIKELY(j < end));
   return cursor;
 }

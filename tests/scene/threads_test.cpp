@@ -68,6 +68,41 @@ TEST(SceneThreads, OneResultForOneAndThreeThreads) {
   EXPECT_EQ(hash_with<double>(3), hash_with<double>(1));
 }
 
+/// Contacts of a scene over some frames, on an executor of the caller's.
+std::uint64_t hash_of_scene(unsigned threads, const ParallelFor& parallel_for) {
+  auto spheres = WorldMaker<float>(kSeed).make(World::packed, kBodies);
+  auto scene = Scene::make({.threads = threads, .parallel_for = parallel_for});
+  EXPECT_TRUE(scene.ok());
+  std::uint64_t hash = 1;
+  for (int frame = 0; frame < 3; ++frame) {
+    EXPECT_FALSE(scene->set_bodies(Bodies{std::span<const Sphere>(spheres)}));
+    const auto contacts = scene->detect();
+    EXPECT_TRUE(contacts.ok());
+    if (!contacts) return 0;
+    EXPECT_GT(contacts->contacts.size(), 10000U);  // many chunks of output
+    hash = hash_of(contacts->contacts, hash);
+    for (auto& s : spheres) s.y += s.r / 100;
+  }
+  return hash;
+}
+
+TEST(SceneThreads, AnInjectedExecutorMayRunTasksInAnyOrder) {
+  const std::uint64_t expected = hash_of_scene(1, {});
+  int calls = 0;
+  const ParallelFor backwards = [&](std::size_t tasks, const auto& body) {
+    ++calls;
+    for (std::size_t t = tasks; t-- > 0;) body(t);
+  };
+  const ParallelFor all_at_once = [](std::size_t tasks, const auto& body) {
+    std::vector<std::thread> threads;
+    for (std::size_t t = 0; t < tasks; ++t) threads.emplace_back([&body, t] { body(t); });
+    for (std::thread& thread : threads) thread.join();
+  };
+  EXPECT_EQ(hash_of_scene(3, backwards), expected);
+  EXPECT_EQ(hash_of_scene(3, all_at_once), expected);
+  EXPECT_GT(calls, 10);
+}
+
 TEST(SceneThreads, WorkspacesWorkAtOnce) {
   const std::uint64_t expected = hash_with<float>(1);
   std::array<std::uint64_t, 2> got = {};

@@ -7,7 +7,7 @@ namespace harpoon::ode {
 namespace {
 
 /// Up to this many geoms every pair is looked at: a search would cost more than it saves.
-constexpr std::uint32_t kFewGeoms = 48;
+constexpr std::uint32_t kFewGeoms = 112;
 
 /// 64 bits onto 32 such that two words that share a bit still do: a filter that lets more through.
 std::uint32_t fold(unsigned long bits) {
@@ -53,9 +53,11 @@ std::optional<Error> CandidateFinder<Real>::find_regular(std::span<const BoundsB
                                                          const Filters& filters) {
   if (bounds.size() <= kFewGeoms) {
     pairs_.clear();
-    const auto count = static_cast<std::uint32_t>(bounds.size());
-    for (std::uint32_t i = 0; i < count; ++i) {
-      for (std::uint32_t j = i + 1; j < count; ++j) {
+    packed_.pack(bounds);
+    for (std::uint32_t i = 0; i < bounds.size(); ++i) {
+      near_.clear();
+      packed_.append_near(bounds[i], near_, std::size_t{i} + 1);
+      for (const std::uint32_t j : near_) {
         if (closed_overlap(bounds[i].v, bounds[j].v)) pairs_.push_back({i, j});
       }
     }

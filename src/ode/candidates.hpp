@@ -36,6 +36,8 @@ class CandidateFinder {
 
   Workspace workspace_;
   std::vector<IndexPair> pairs_;
+  PackedBounds<Real> packed_;
+  std::vector<std::uint32_t> near_;
   std::vector<std::uint32_t> category_, collide_;
 };
 

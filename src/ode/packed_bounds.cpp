@@ -48,11 +48,11 @@ void PackedBounds<Real>::pack(std::span<const BoundsBox<Real>> boxes) {
 }
 
 template <class Real>
-void PackedBounds<Real>::append_near(const BoundsBox<Real>& box,
-                                     std::vector<std::uint32_t>& out) const {
+void PackedBounds<Real>::append_near(const BoundsBox<Real>& box, std::vector<std::uint32_t>& out,
+                                     std::size_t first) const {
   const float low[3] = {rounded_down(box.v[0]), rounded_down(box.v[2]), rounded_down(box.v[4])};
   const float high[3] = {rounded_up(box.v[1]), rounded_up(box.v[3]), rounded_up(box.v[5])};
-  for (std::size_t number = 0; number < blocks_.size(); ++number) {
+  for (std::size_t number = first / kLanes; number < blocks_.size(); ++number) {
     const Floats* const v = blocks_[number].v;
     const Bits apart = (v[0] > high[0]) | (v[1] < low[0]) | (v[2] > high[1]) | (v[3] < low[1]) |
                        (v[4] > high[2]) | (v[5] < low[2]);
@@ -60,7 +60,8 @@ void PackedBounds<Real>::append_near(const BoundsBox<Real>& box,
     if ((halves[0] & halves[1]) == ~std::uint64_t{0}) continue;
     for (std::size_t lane = 0; lane < kLanes; ++lane) {
       const std::size_t k = number * kLanes + lane;
-      if (apart[lane] == 0 && k < count_) out.push_back(static_cast<std::uint32_t>(k));
+      if (apart[lane] == 0 && k >= first && k < count_)
+        out.push_back(static_cast<std::uint32_t>(k));
     }
   }
 }

@@ -20,9 +20,10 @@ class PackedBounds {
   /// Packs boxes begin to end - 1 anew; their number has not changed.
   void repack(std::span<const BoundsBox<Real>> boxes, std::size_t begin, std::size_t end);
 
-  /// Appends the numbers of all boxes that overlap `box`, closed, and perhaps of some that nearly
-  /// do, ascending. A NaN overlaps everything. O(boxes). Throws std::bad_alloc.
-  void append_near(const BoundsBox<Real>& box, std::vector<std::uint32_t>& out) const;
+  /// Appends the numbers, from `first` on, of all boxes that overlap `box`, closed, and perhaps of
+  /// some that nearly do, ascending. A NaN overlaps everything. O(boxes). Throws std::bad_alloc.
+  void append_near(const BoundsBox<Real>& box, std::vector<std::uint32_t>& out,
+                   std::size_t first = 0) const;
 
  private:
   /// Vectors that compilers have everywhere; the library is built for the oldest machine it serves.

@@ -21,9 +21,13 @@ void Refresher<Real>::note_changes(Record& record) const {
   if (record.was_unchanged) return;
   record.count = count;
   record.recorded_valid = false;
-  std::sort(record.moved.begin(), record.moved.end());
-  record.moved.erase(std::unique(record.moved.begin(), record.moved.end()), record.moved.end());
-  if (widely || !is_told || !record.mirror_valid || !record.are_few(record.moved.size())) {
+  bool can_follow = !widely && is_told && record.mirror_valid;
+  if (can_follow) {
+    std::sort(record.moved.begin(), record.moved.end());
+    record.moved.erase(std::unique(record.moved.begin(), record.moved.end()), record.moved.end());
+    can_follow = record.are_few(record.moved.size());
+  }
+  if (!can_follow) {
     record.moved.clear();
     record.mirror_valid = record.pairs_valid = false;
   }
@@ -71,7 +75,6 @@ void Refresher<Real>::refresh_mirror(Record& record, bool in_collide) const {
   if (record.mirror_valid && !record.moved.empty()) follow_moved(record, in_collide);
   if (record.mirror_valid) return;
   record.contacts.reset();
-  record.moved.clear();
   record.expect_moves();
   // A recorded sequence has its own numbers.
   record.pairs_valid = false;

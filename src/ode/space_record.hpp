@@ -73,18 +73,14 @@ struct SpaceRecord {
     if (moved.size() == moved.capacity()) return mark_changed();
     moved.push_back(geom);
   }
-  /// Makes room for so many calls of `note_moved` as are worth it. Throws std::bad_alloc.
+  /// Makes room for so many calls of `note_moved` as are worth it: a geom may be moved a few times
+  /// over. Throws std::bad_alloc.
   void expect_moves() {
-    moved.reserve(std::min(kMostMarks, static_cast<std::size_t>(std::max(count, 0))));
+    moved.clear();
+    moved.reserve(4 * most_few());
   }
-  /// Whether an update for so many different geoms is faster than to read and search anew. In a SAP
-  /// space each of them takes a second one to another place. By measurement.
-  [[nodiscard]] bool are_few(std::size_t geoms) const {
-    const bool is_sap = kind == geom_class::kSapSpace;
-    const auto all = static_cast<std::size_t>(count);
-    return geoms <= (is_sap ? std::min<std::size_t>(128, 1 + all / 32)
-                            : std::min<std::size_t>(256, 1 + all / 8));
-  }
+  /// Whether an update for so many different geoms is faster than to read and search anew.
+  [[nodiscard]] bool are_few(std::size_t geoms) const { return geoms <= most_few(); }
 
   /// Contacts may have changed, and anything else.
   void mark_changed_with_contacts() {
@@ -97,8 +93,12 @@ struct SpaceRecord {
   }
 
  private:
-  static constexpr std::size_t kMostMarks = 1024;
-
+  /// In a SAP space each geom that moves takes a second one to another place. By measurement.
+  [[nodiscard]] std::size_t most_few() const {
+    const auto all = static_cast<std::size_t>(count);
+    return kind == geom_class::kSapSpace ? std::min<std::size_t>(128, 1 + all / 32)
+                                         : std::min<std::size_t>(256, 1 + all / 8);
+  }
   void count_version() {
     version.store(version.load(std::memory_order_relaxed) + 1, std::memory_order_relaxed);
   }

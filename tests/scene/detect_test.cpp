@@ -17,7 +17,7 @@ namespace {
 constexpr std::uint64_t kSeed = 20240611;
 #if defined(__SANITIZE_ADDRESS__) || defined(__SANITIZE_THREAD__)
 constexpr int kScenesOfWorld = 8;  // unoptimised kernels are slow; the release run has them all
-constexpr int kManyBodies = 1200;
+constexpr int kManyBodies = 800;
 constexpr std::ptrdiff_t kInstructionSets = 1;
 constexpr std::array kThreadCounts = {2U, 8U};
 constexpr std::array kLargeWorlds = {World::packed, World::clusters};

@@ -14,8 +14,8 @@ namespace {
 
 constexpr std::uint64_t kSeed = 20251122;
 #if defined(__SANITIZE_ADDRESS__) || defined(__SANITIZE_THREAD__)
-constexpr int kScenesOfWorld = 6;  // unoptimised kernels are slow; the release run has them all
-constexpr int kManyBoxes = 1000;
+constexpr int kScenesOfWorld = 3;  // unoptimised kernels are slow; the release run has them all
+constexpr int kManyBoxes = 700;
 const std::vector<std::string> kSomeSets = {""};
 #else
 constexpr int kScenesOfWorld = 130;  // x 8 worlds x 2 precisions > 2,000

@@ -13,6 +13,11 @@ namespace harpoon::testing {
 namespace {
 
 constexpr std::uint64_t kSeed = 77001;
+#if defined(__SANITIZE_ADDRESS__) || defined(__SANITIZE_THREAD__)
+constexpr int kMovingBodies = 100;  // unoptimised kernels are slow
+#else
+constexpr int kMovingBodies = 250;
+#endif
 
 template <class Real>
 class SceneTest : public ::testing::Test {
@@ -46,7 +51,7 @@ TYPED_TEST(SceneTest, MovingWorldsEqualBruteForceInEveryFrame) {
   for (const World world : kWorlds) {
     for (const double part : {0.0, 0.001, 0.02, 0.3}) {
       Dice dice(kSeed);
-      auto spheres = WorldMaker<Real>(kSeed + 5).make(world, 250);
+      auto spheres = WorldMaker<Real>(kSeed + 5).make(world, kMovingBodies);
       auto scene = this->scene(part == 0.02 ? 2 : 1);
       for (int frame = 0; frame < 14; ++frame) {
         ASSERT_FALSE(scene.set_bodies(BodiesOf<Real>(this->view(spheres))));

@@ -139,6 +139,16 @@ TEST(ReplayCommand, RepeatsADifference) {
   EXPECT_TRUE(contains(same.out, "the same here")) << same.out;
 }
 
+TEST(ReplayCommand, ReportsAFrameOnWhichStockAborts) {
+  const ScratchFolder folder;
+  std::string text = missed_pair(ode::Policy::compat);
+  text.replace(text.rfind("0x"), std::string::npos, "nan\nours 0\nstock 0\n");
+  write_file(folder / "nan.txt", text);
+  const Finished f = run_piped({"replay", (folder / "nan.txt").string()});
+  EXPECT_EQ(f.exit_code, 1) << f.err;
+  EXPECT_TRUE(contains(f.err, "stock ODE aborts on these geoms: assertion")) << f.err;
+}
+
 TEST(ReplayCommand, NamesTheLineOfADamagedFile) {
   const ScratchFolder folder;
   write_file(folder / "bad.txt", "harpoon-ode-frame 1\nx\nsingle maybe\n");

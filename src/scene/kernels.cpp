@@ -36,7 +36,7 @@ using Index = Tag<std::uint32_t>;
 template <class T>
 constexpr std::size_t kLongRunLanes = HWY_LANES(T);
 template <class T>
-constexpr std::size_t kShortRunLanes = std::min<std::size_t>(HWY_LANES(T), 32 / sizeof(T));
+constexpr std::size_t kShortRunLanes = std::min<std::size_t>(HWY_LANES(T), 8);
 
 constexpr std::size_t kMaxLanes = HWY_MAX_BYTES / sizeof(float);
 static_assert(kMaxLanes <= kSlack);
@@ -147,18 +147,52 @@ HWY_INLINE hn::Vec<Index> shifted(const hn::Vec<Index>& v, std::uint32_t shift) 
   return hn::ShiftRightSame(v, static_cast<int>(shift));
 }
 
+template <class Cull>
+HWY_INLINE CellVectors cells_of(const Grid<Cull>& grid, const hn::Vec<Index>& ix,
+                                const hn::Vec<Index>& sub_y, const hn::Vec<Index>& sub_z) {
+  const Index du;
+  const auto row_y = hn::Mul(shifted(sub_y, grid.row_shift), hn::Set(du, grid.stride_y));
+  const auto row_z = hn::Mul(shifted(sub_z, grid.row_shift), hn::Set(du, grid.stride_z));
+  return {hn::And(hn::Add(hn::Add(ix, row_y), row_z), hn::Set(du, grid.mask)), sub_y, sub_z};
+}
+
 HWY_INLINE CellVectors cells_of(const Grid<float>& grid, const Vector<float>& x,
                                 const Vector<float>& y, const Vector<float>& z) {
   const Tag<float> d;
-  const Index du;
   const auto per_x = hn::Set(d, grid.cells_per_unit_x);
   const auto per_sub = hn::Set(d, grid.sub_cells_per_unit);
   const auto ix = to_index(hn::Mul(hn::Sub(x, hn::Set(d, grid.origin[0])), per_x));
   const auto sub_y = to_index(hn::Mul(hn::Sub(y, hn::Set(d, grid.origin[1])), per_sub));
   const auto sub_z = to_index(hn::Mul(hn::Sub(z, hn::Set(d, grid.origin[2])), per_sub));
-  const auto row_y = hn::Mul(shifted(sub_y, grid.row_shift), hn::Set(du, grid.stride_y));
-  const auto row_z = hn::Mul(shifted(sub_z, grid.row_shift), hn::Set(du, grid.stride_z));
-  return {hn::And(hn::Add(hn::Add(ix, row_y), row_z), hn::Set(du, grid.mask)), sub_y, sub_z};
+  return cells_of(grid, ix, sub_y, sub_z);
+}
+
+/// Cells of sorted bodies from i on.
+HWY_INLINE CellVectors cells_at(const CullArrays<float>& bodies, const Grid<float>& grid,
+                                std::uint32_t i) {
+  const Tag<float> d;
+  return cells_of(grid, hn::LoadU(d, bodies.x + i), hn::LoadU(d, bodies.y + i),
+                  hn::LoadU(d, bodies.z + i));
+}
+
+HWY_INLINE hn::Vec<Index> cell_numbers(const double* at, double origin, double per_unit) {
+  const Tag<double> d;
+  const hn::Rebind<std::int32_t, Tag<double>> di;
+  const hn::RebindToUnsigned<decltype(di)> du;
+  HWY_ALIGN std::uint32_t numbers[kMaxLanes];
+  for (std::size_t l = 0; l < hn::Lanes(Index()); l += hn::Lanes(d)) {
+    const auto offset = hn::Sub(hn::LoadU(d, at + l), hn::Set(d, origin));
+    const auto cell = hn::DemoteTo(di, hn::Mul(offset, hn::Set(d, per_unit)));
+    hn::StoreU(hn::BitCast(du, cell), du, numbers + l);
+  }
+  return hn::Load(Index(), numbers);
+}
+
+HWY_INLINE CellVectors cells_at(const CullArrays<double>& bodies, const Grid<double>& grid,
+                                std::uint32_t i) {
+  return cells_of(grid, cell_numbers(bodies.x + i, grid.origin[0], grid.cells_per_unit_x),
+                  cell_numbers(bodies.y + i, grid.origin[1], grid.sub_cells_per_unit),
+                  cell_numbers(bodies.z + i, grid.origin[2], grid.sub_cells_per_unit));
 }
 
 /// The same for one body in double.
@@ -312,20 +346,18 @@ HWY_INLINE std::uint32_t mask_bits(D d, const M& mask) {
 /// without a branch, because which tests hit is unpredictable.
 template <class D, class M>
 HWY_INLINE void append(D d, const M& hits, std::uint32_t i, std::uint32_t j, ListEnd& cursor) {
+  const hn::Rebind<std::uint32_t, D> du;
+  const auto partners = hn::Add(hn::Set(du, j), hn::Iota(du, 0));
   if constexpr (sizeof(hn::TFromD<D>) == sizeof(std::uint32_t)) {
-    const hn::Rebind<std::uint32_t, D> du;
-    const auto partners = hn::Add(hn::Set(du, j), hn::Iota(du, 0));
     hn::StoreU(hn::Compress(partners, hn::RebindMask(du, hits)), du, cursor.j + cursor.count);
-    hn::StoreU(hn::Set(du, i), du, cursor.i + cursor.count);
-    cursor.count += hn::CountTrue(d, hits);
   } else {
-    for (std::uint32_t bits = mask_bits(d, hits); bits != 0; bits &= bits - 1) {
-      cursor.i[cursor.count] = i;
-      cursor.j[cursor.count] =
-          j + static_cast<std::uint32_t>(hwy::Num0BitsBelowLS1Bit_Nonzero32(bits));
-      ++cursor.count;
-    }
+    std::uint8_t bits[sizeof(std::uint64_t)];
+    hn::StoreMaskBits(d, hits, bits);
+    const auto same = hn::LoadMaskBits(du, bits);
+    hn::StoreU(hn::Compress(partners, same), du, cursor.j + cursor.count);
   }
+  hn::StoreU(hn::Set(du, i), du, cursor.i + cursor.count);
+  cursor.count += hn::CountTrue(d, hits);
 }
 
 /// How closely the candidates of some spheres came to being none: the least of reach squared minus
@@ -554,16 +586,14 @@ struct OwnCells {
   Selection last_y, last_z, last_z_last_y, last_z_first_y;
 };
 
-HWY_INLINE void fill_own_cells(const SearchJob<float>& job, const Grid<float>& grid,
+template <class Cull>
+HWY_INLINE void fill_own_cells(const SearchJob<Cull>& job, const Grid<Cull>& grid,
                                std::uint32_t begin, std::uint32_t count, OwnCells& out) {
-  const Tag<float> d;
   const Index du;
-  const auto lanes = static_cast<std::uint32_t>(hn::Lanes(d));
+  const auto lanes = static_cast<std::uint32_t>(hn::Lanes(du));
   const auto in_row = hn::Set(du, (1U << grid.row_shift) - 1);
   for (std::uint32_t k = 0; k < count; k += lanes) {
-    const CellVectors c =
-        cells_of(grid, hn::LoadU(d, job.bodies.x + begin + k),
-                 hn::LoadU(d, job.bodies.y + begin + k), hn::LoadU(d, job.bodies.z + begin + k));
+    const CellVectors c = cells_at(job.bodies, grid, begin + k);
     hn::StoreU(c.bucket, du, out.bucket + k);
     const auto offsets = offsets_from(k);
     const auto present = hn::FirstN(du, count - k);
@@ -575,23 +605,6 @@ HWY_INLINE void fill_own_cells(const SearchJob<float>& job, const Grid<float>& g
     out.last_z.add(offsets, last_z);
     out.last_z_last_y.add(offsets, hn::And(last_z, last_y));
     out.last_z_first_y.add(offsets, hn::And(last_z, first_y));
-  }
-}
-
-HWY_INLINE void fill_own_cells(const SearchJob<double>& job, const Grid<double>& grid,
-                               std::uint32_t begin, std::uint32_t count, OwnCells& out) {
-  const std::uint32_t in_row = (1U << grid.row_shift) - 1;
-  for (std::uint32_t k = 0; k < count; ++k) {
-    const Cell c =
-        cell_of(grid, job.bodies.x[begin + k], job.bodies.y[begin + k], job.bodies.z[begin + k]);
-    out.bucket[k] = c.bucket;
-    const bool last_y = (c.sub_y & in_row) == in_row;
-    const bool first_y = (c.sub_y & in_row) == 0;
-    const bool last_z = (c.sub_z & in_row) == in_row;
-    out.last_y.add_if(k, last_y);
-    out.last_z.add_if(k, last_z);
-    out.last_z_last_y.add_if(k, last_z && last_y);
-    out.last_z_first_y.add_if(k, last_z && first_y);
   }
 }
 

@@ -22,8 +22,9 @@ constexpr std::size_t kWholeBodies = 131072;
 constexpr std::size_t kMaxParts = 512;
 /// Below this many bodies a pass is not shared between threads.
 constexpr std::size_t kParallelBodies = 16384;
-/// Bodies looked at to find out how much of the world is occupied.
+/// Most bodies looked at to find out how much of the world is occupied, and one in how many.
 constexpr std::size_t kSamples = 256;
+constexpr std::size_t kBodiesPerSample = 16;
 
 Error out_of_memory() {
   return {Errc::out_of_memory, "out of memory"};
@@ -126,7 +127,8 @@ template <class Real>
 double occupied_length(const Source<Real>& source, int axis, double longest_gap) noexcept {
   Real samples[kSamples];
   std::size_t count = 0;
-  const std::size_t step = std::max<std::size_t>(1, source.count / kSamples);
+  const std::size_t step =
+      std::max(std::min(source.count, kBodiesPerSample), source.count / kSamples);
   for (std::size_t i = 0; i < source.count && count < kSamples; i += step) {
     const SphereOf<Real> b = source[i];
     if (valid(b)) samples[count++] = axis == 0 ? b.x : axis == 1 ? b.y : b.z;

@@ -23,10 +23,10 @@
 #include "apps/options.hpp"
 #include "apps/progress.hpp"
 #include "apps/table.hpp"
-#include "bench/ode/collision_calls.hpp"
 #include "bench/ode/drop_in_bench.hpp"
+#include "bench/ode/interposed.hpp"
 #include "bench/ode/program_bench.hpp"
-#include "bench/ode/program_twin.hpp"
+#include "bench/ode/twin.hpp"
 
 namespace harpoon::app {
 namespace {
@@ -57,7 +57,7 @@ std::vector<std::string> own_words() {
 std::string describe(const Terminal& terminal, const bench::DropInOutcome& outcome) {
   std::vector<std::vector<Cell>> rows;
   for (const bench::DropInRow& row : outcome.rows) {
-    rows.push_back({row.space, fmt::format("{:.4f}", row.stock_ms.median),
+    rows.push_back({std::string(to_string(row.space)), fmt::format("{:.4f}", row.stock_ms.median),
                     fmt::format("{:.4f}", row.harpoon_ms.median),
                     fmt::format("{:.2f}", row.speedup), fmt::format("{}", row.pairs),
                     fmt::format("{}", row.contacts), row.identical ? "yes" : "NO"});
@@ -75,15 +75,6 @@ std::string describe(const Terminal& terminal, const bench::DropInOutcome& outco
   return text;
 }
 
-/// Measured as it is used: this command once more, with the library in front of libode. Returns
-/// only where that is so already.
-void require_drop_in(const std::vector<Variable>& variables) {
-  if (bench::drop_in_is_interposed()) return;
-  std::vector<std::string> words = own_words();
-  words[0] = "/proc/self/exe";
-  run_with_drop_in(words, variables);
-}
-
 /// Holds the number of the socket to the process with stock libode.
 constexpr const char* kTwinVariable = "HARPOON_BENCH_TWIN";
 
@@ -96,15 +87,16 @@ void stay_on_one_core() {
   ::sched_setaffinity(0, sizeof one, &one);
 }
 
-/// Leaves a process behind that runs programs with stock libode, and goes on as one with the
-/// drop-in. Returns the socket between them.
+/// Leaves a process behind that runs what it is asked for with stock libode, and goes on as one
+/// with the drop-in: this command once more, with the library in front of libode. Returns the
+/// socket between them.
 int part_from_stock() {
   if (bench::drop_in_is_interposed()) {
     const char* const twin = std::getenv(kTwinVariable);
     if (twin != nullptr) return std::atoi(twin);
     throw CommandError(ExitCode::usage,
-                       "libharpoon_ode is preloaded already. Run `harpoon bench ode "
-                       "--program` without it: it does so itself.");
+                       "libharpoon_ode is preloaded already. Run `harpoon bench ode` without it: "
+                       "it does so itself.");
   }
   stay_on_one_core();
   int ends[2];
@@ -117,12 +109,13 @@ int part_from_stock() {
   }
   if (child == 0) {
     ::close(ends[0]);
-    bench::serve_programs(ends[1]);
+    bench::serve_twins(ends[1]);
     ::_exit(0);
   }
   ::close(ends[1]);
-  require_drop_in({{kTwinVariable, std::to_string(ends[0])}});
-  return ends[0];
+  std::vector<std::string> words = own_words();
+  words[0] = "/proc/self/exe";
+  run_with_drop_in(words, {{kTwinVariable, std::to_string(ends[0])}});
 }
 
 /// Runs `work` with a progress to report to.
@@ -153,18 +146,21 @@ void measure(const Context& context, const OdeOptions& options) {
   plan.geoms = options.geoms;
   plan.seconds = options.seconds;
   plan.seed = options.seed;
-  plan.spaces = options.space == "all"
-                    ? std::vector<std::string>{"simple", "hash", "sap", "quadtree"}
-                    : std::vector<std::string>{options.space};
+  for (std::size_t k = 0; k < bench::kSpaceKinds; ++k) {
+    const auto space = static_cast<bench::SpaceKind>(k);
+    if (options.space == "all" || options.space == to_string(space)) plan.spaces.push_back(space);
+  }
+  const int stock = part_from_stock();
   const auto outcome = with_progress(context, [&](const std::function<void(double)>& share) {
-    return bench::run_drop_in(plan, share, is_interrupted);
+    return bench::run_drop_in(plan, stock, share, is_interrupted);
   });
   deliver(options.json, describe(context.terminal, outcome),
           bench::drop_in_json(plan, outcome, bench::describe_machine(), context.command_line));
   for (const bench::DropInRow& row : outcome.rows) {
     if (!row.identical) {
-      throw CommandError(ExitCode::failure,
-                         fmt::format("the drop-in differs from stock in the {} space", row.space));
+      throw CommandError(
+          ExitCode::failure,
+          fmt::format("the drop-in differs from stock in the {} space", to_string(row.space)));
     }
   }
 }
@@ -236,9 +232,11 @@ void measure_programs(const Context& context, const OdeOptions& options) {
 
 void run(const Context& context, const OdeOptions& options) {
   if (!options.json.empty() && options.json != "-") require_writable_file(options.json, "--json");
-  if (!options.program.empty()) return measure_programs(context, options);
-  require_drop_in({});
-  measure(context, options);
+  if (options.program.empty()) {
+    measure(context, options);
+  } else {
+    measure_programs(context, options);
+  }
 }
 
 }  // namespace
@@ -275,11 +273,11 @@ void add_bench_ode(CLI::App& bench, Context& context) {
   ode->add_option("--json", options->json, "Write the results as JSON; - for standard output")
       ->type_name("FILE");
   ode->footer(
-      "Times are medians of a step, stock and drop-in in turn on twin worlds, in one process with\n"
-      "the library preloaded: dSpaceCollide with dCollide in the callback. With --program also of\n"
-      "the whole step, solver included, in two processes on one core, with and without preload:\n"
-      "share is the part of collision in stock's step, limit what the step would gain if\n"
-      "collision took no time (Amdahl).\n\n"
+      "Times are medians of a step, stock and drop-in in turn on twin worlds, in two processes on\n"
+      "one core, without and with the library preloaded: dSpaceCollide with dCollide in the\n"
+      "callback. With --program also of the whole step, solver included: share is the part of\n"
+      "collision in stock's step, limit what the step would gain if collision took no time\n"
+      "(Amdahl).\n\n"
       "Programs: diamond10, diamond30: the paper's world. pile: 3,000 bodies dropped into a pen.\n"
       "sleeping: 10,000 boxes, all asleep but for those that 8 balls hit. planner, clutter: an "
       "arm\n"

@@ -2,105 +2,49 @@
 
 #include <fmt/format.h>
 
-#include <array>
-
 #include "bench/json.hpp"
-#include "bench/ode/collision_calls.hpp"
-#include "bench/ode/drop_in_world.hpp"
-#include "bench/ode/runtime.hpp"
-#include "bench/timer.hpp"
+#include "bench/ode/twin_bench.hpp"
 
 namespace harpoon::bench {
 namespace {
 
-constexpr std::array<std::pair<std::string_view, DropInKind>, 4> kKinds = {{
-    {"packed", DropInKind::packed},
-    {"gas", DropInKind::gas},
-    {"mixed", DropInKind::mixed},
-    {"asleep", DropInKind::asleep},
-}};
-constexpr unsigned kWarmSteps = 2;
-constexpr unsigned kLeastSteps = 5;
-constexpr unsigned kMostSteps = 2000;
-constexpr unsigned kComparedSteps = 3;
-
-struct Sides {
-  DropInWorld stock, ours;
-  CollisionCalls stock_calls, our_calls;
-
-  bool same_at(unsigned step) {
-    stock.move(step);
-    ours.move(step);
-    return stock.fingerprint(stock_calls) == ours.fingerprint(our_calls);
-  }
-};
-
-DropInRow measure(const DropInPlan& plan, const std::string& space,
-                  const Interrupted& interrupted) {
-  Sides sides{{plan.kind, space, plan.geoms, plan.seed},
-              {plan.kind, space, plan.geoms, plan.seed},
-              stock_calls(),
-              linked_calls()};
+Result<DropInRow> measure(const DropInPlan& plan, SpaceKind space, int stock,
+                          const Interrupted& interrupted) {
+  const Result<TwinOutcome> outcome =
+      measure_twins({.subject = WorldSubject{plan.kind, space, plan.geoms, plan.seed},
+                     .seconds = plan.seconds,
+                     .compares_every = false},
+                    stock, interrupted);
+  if (!outcome) return outcome.error();
   DropInRow row;
   row.space = space;
-  row.identical = true;
-  std::vector<double> stock_ms, our_ms;
-  unsigned step = 0;
-  double spent_ms = 0;
-  while (step < kMostSteps && (step < kWarmSteps + kLeastSteps || spent_ms < plan.seconds * 1e3)) {
-    if (interrupted()) return row;
-    sides.stock.move(step);
-    sides.ours.move(step);
-    const DropInWorld::Step stock = sides.stock.collide(sides.stock_calls);
-    const DropInWorld::Step ours = sides.ours.collide(sides.our_calls);
-    spent_ms += stock.ms + ours.ms;
-    row.identical = row.identical && stock.pairs == ours.pairs && stock.contacts == ours.contacts;
-    row.pairs = ours.pairs;
-    row.contacts = ours.contacts;
-    if (step >= kWarmSteps) {
-      stock_ms.push_back(stock.ms);
-      our_ms.push_back(ours.ms);
-    }
-    ++step;
-  }
-  for (unsigned k = 0; k < kComparedSteps; ++k) {
-    if (!sides.same_at(step + k)) row.identical = false;
-  }
-  row.stock_ms = summarize(stock_ms);
-  row.harpoon_ms = summarize(our_ms);
+  row.stock_ms = summarize(outcome->stock.collision_ms);
+  row.harpoon_ms = summarize(outcome->harpoon.collision_ms);
   row.speedup = row.stock_ms.median / row.harpoon_ms.median;
+  row.pairs = outcome->last.pairs;
+  row.contacts = outcome->last.contacts;
+  row.identical = outcome->identical;
   return row;
 }
 
 }  // namespace
 
-std::optional<DropInKind> parse_drop_in_kind(std::string_view name) {
-  for (const auto& [known, kind] : kKinds) {
-    if (known == name) return kind;
-  }
-  return std::nullopt;
-}
-
-std::string_view to_string(DropInKind kind) {
-  return kKinds[static_cast<std::size_t>(kind)].first;
-}
-
-Result<DropInOutcome> run_drop_in(const DropInPlan& plan, const std::function<void(double)>& share,
+Result<DropInOutcome> run_drop_in(const DropInPlan& plan, int stock,
+                                  const std::function<void(double)>& share,
                                   const Interrupted& interrupted) {
-  if (!drop_in_is_interposed()) {
-    return Error{Errc::device_unavailable,
-                 "libharpoon_ode is not in front of libode here. Preload it."};
-  }
-  const OdeRuntime ode;
   DropInOutcome outcome;
   for (std::size_t k = 0; k < plan.spaces.size(); ++k) {
-    const std::string& space = plan.spaces[k];
-    if (plan.geoms > kMaxSlowSpaceGeoms && (space == "simple" || space == "quadtree")) {
+    const SpaceKind space = plan.spaces[k];
+    if (plan.geoms > kMaxSlowSpaceGeoms &&
+        (space == SpaceKind::simple || space == SpaceKind::quadtree)) {
       outcome.notes.push_back(
-          fmt::format("{} takes part up to {} geoms", space, kMaxSlowSpaceGeoms));
+          fmt::format("{} takes part up to {} geoms", to_string(space), kMaxSlowSpaceGeoms));
       continue;
     }
-    outcome.rows.push_back(measure(plan, space, interrupted));
+    const Result<DropInRow> row = measure(plan, space, stock, interrupted);
+    if (!row) return row.error();
+    outcome.rows.push_back(*row);
+    if (must_stop(interrupted)) return outcome;
     share(static_cast<double>(k + 1) / static_cast<double>(plan.spaces.size()));
   }
   return outcome;
@@ -110,7 +54,7 @@ std::string drop_in_json(const DropInPlan& plan, const DropInOutcome& outcome,
                          const Machine& machine, const std::string& command) {
   Json results = Json::array();
   for (const DropInRow& row : outcome.rows) {
-    results.push_back({{"space", row.space},
+    results.push_back({{"space", to_string(row.space)},
                        {"kind", to_string(plan.kind)},
                        {"geoms", plan.geoms},
                        {"stock_ms", row.stock_ms.median},

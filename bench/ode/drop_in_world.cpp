@@ -1,6 +1,7 @@
 #include "bench/ode/drop_in_world.hpp"
 
 #include <algorithm>
+#include <array>
 #include <bit>
 #include <cmath>
 #include <numbers>
@@ -12,6 +13,13 @@
 namespace harpoon::bench {
 namespace {
 
+constexpr std::array<std::pair<std::string_view, DropInKind>, 4> kKinds = {{
+    {"packed", DropInKind::packed},
+    {"gas", DropInKind::gas},
+    {"mixed", DropInKind::mixed},
+    {"asleep", DropInKind::asleep},
+}};
+constexpr std::array<std::string_view, kSpaceKinds> kSpaces = {"simple", "hash", "sap", "quadtree"};
 constexpr double kRadius = 0.5;
 constexpr double kGasShare = 0.05;
 /// Of the lattice's bodies, in each direction.
@@ -23,12 +31,19 @@ constexpr int kMaxContacts = 8;
 constexpr int kGroundSquares = 64;
 constexpr int kQuadtreeDepth = 6;
 
-dSpaceID make_space(std::string_view kind, double extent) {
+dSpaceID make_space(SpaceKind kind, double extent) {
   const dVector3 center = {extent, extent, extent, 0}, extents = {extent, extent, extent, 0};
-  if (kind == "simple") return dSimpleSpaceCreate(nullptr);
-  if (kind == "hash") return dHashSpaceCreate(nullptr);
-  if (kind == "sap") return dSweepAndPruneSpaceCreate(nullptr, dSAP_AXES_XYZ);
-  return dQuadTreeSpaceCreate(nullptr, center, extents, kQuadtreeDepth);
+  switch (kind) {
+    case SpaceKind::simple:
+      return dSimpleSpaceCreate(nullptr);
+    case SpaceKind::hash:
+      return dHashSpaceCreate(nullptr);
+    case SpaceKind::sap:
+      return dSweepAndPruneSpaceCreate(nullptr, dSAP_AXES_XYZ);
+    case SpaceKind::quadtree:
+      return dQuadTreeSpaceCreate(nullptr, center, extents, kQuadtreeDepth);
+  }
+  return nullptr;
 }
 
 struct Point {
@@ -80,7 +95,6 @@ dGeomID make_shape(DropInKind kind, std::size_t number) {
 }
 
 struct Walk {
-  const CollisionCalls& calls;
   std::uint64_t pairs = 0, contacts = 0, hash = 0;
 
   void mix(std::uint64_t value) { hash = (hash ^ value) * 0x9E3779B97F4A7C15u + (hash >> 29); }
@@ -90,14 +104,16 @@ void near(void* data, dGeomID o1, dGeomID o2) {
   Walk& walk = *static_cast<Walk*>(data);
   dContactGeom contacts[kMaxContacts];
   ++walk.pairs;
-  walk.contacts += static_cast<std::uint64_t>(
-      walk.calls.collide(o1, o2, kMaxContacts, contacts, sizeof(dContactGeom)));
+  walk.contacts +=
+      static_cast<std::uint64_t>(dCollide(o1, o2, kMaxContacts, contacts, sizeof(dContactGeom)));
 }
 
 void near_hashed(void* data, dGeomID o1, dGeomID o2) {
   Walk& walk = *static_cast<Walk*>(data);
   dContactGeom contacts[kMaxContacts];
-  const int count = walk.calls.collide(o1, o2, kMaxContacts, contacts, sizeof(dContactGeom));
+  const int count = dCollide(o1, o2, kMaxContacts, contacts, sizeof(dContactGeom));
+  ++walk.pairs;
+  walk.contacts += static_cast<std::uint64_t>(count);
   walk.mix(reinterpret_cast<std::uintptr_t>(dGeomGetData(o1)));
   walk.mix(reinterpret_cast<std::uintptr_t>(dGeomGetData(o2)));
   for (int k = 0; k < count; ++k) {
@@ -111,8 +127,22 @@ void near_hashed(void* data, dGeomID o1, dGeomID o2) {
 
 }  // namespace
 
-DropInWorld::DropInWorld(DropInKind kind, std::string_view space, std::size_t geoms,
-                         std::uint64_t seed)
+std::optional<DropInKind> parse_drop_in_kind(std::string_view name) {
+  for (const auto& [known, kind] : kKinds) {
+    if (known == name) return kind;
+  }
+  return std::nullopt;
+}
+
+std::string_view to_string(DropInKind kind) {
+  return kKinds[static_cast<std::size_t>(kind)].first;
+}
+
+std::string_view to_string(SpaceKind kind) {
+  return kSpaces[static_cast<std::size_t>(kind)];
+}
+
+DropInWorld::DropInWorld(DropInKind kind, SpaceKind space, std::size_t geoms, std::uint64_t seed)
     : kind_(kind), seed_(seed), world_(dWorldCreate()) {
   Numbers numbers(seed);
   std::vector<Point> points = kind == DropInKind::gas ? gas_points(geoms, extent_, numbers)
@@ -166,26 +196,39 @@ void DropInWorld::add_ground() {
   dGeomSetData(ground, reinterpret_cast<void*>(bodies_.size()));
 }
 
-void DropInWorld::move(unsigned step) {
+void DropInWorld::move() {
   if (kind_ == DropInKind::asleep) return;
-  Numbers numbers(seed_ * 1000003 + step);
+  Numbers numbers(seed_ * 1000003 + steps_++);
   for (const Body& b : bodies_) {
     const double x = numbers.next() * kMove, y = numbers.next() * kMove, z = numbers.next() * kMove;
     dBodySetPosition(b.body, b.x + x, b.y + y, b.z + z);
   }
 }
 
-DropInWorld::Step DropInWorld::collide(const CollisionCalls& calls) {
-  Walk walk{calls};
+Program::Work DropInWorld::collide(dNearCallback* callback) {
+  Walk walk;
   const double begin_ns = now_ns();
-  calls.space_collide(space_, &walk, &near);
-  return {walk.pairs, walk.contacts, (now_ns() - begin_ns) * 1e-6};
+  dSpaceCollide(space_, &walk, callback);
+  const double collision_ms = (now_ns() - begin_ns) * 1e-6;
+  hash_ = walk.hash;
+  return {collision_ms, walk.pairs, walk.contacts};
 }
 
-std::uint64_t DropInWorld::fingerprint(const CollisionCalls& calls) {
-  Walk walk{calls};
-  calls.space_collide(space_, &walk, &near_hashed);
-  return walk.hash;
+Program::Work DropInWorld::step() {
+  move();
+  return collide(&near);
+}
+
+Program::Work DropInWorld::compared_step() {
+  move();
+  return collide(&near_hashed);
+}
+
+void DropInWorld::append_state(std::vector<dReal>& state) const {
+  // Sixteen bits are a whole number in either precision.
+  for (unsigned shift = 0; shift < 64; shift += 16) {
+    state.push_back(static_cast<dReal>(hash_ >> shift & 0xFFFF));
+  }
 }
 
 }  // namespace harpoon::bench

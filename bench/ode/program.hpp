@@ -42,6 +42,9 @@ class Program {
   };
   /// One step of the program.
   virtual Work step() = 0;
+  /// The same for a program that append_state is asked of next. One that would have to do more for
+  /// this than it does anyway does so here, and its times are then no measurement.
+  virtual Work compared_step() { return step(); }
   /// Steps before the program is in the state that it is measured in.
   [[nodiscard]] virtual unsigned settling_steps() const { return 0; }
   [[nodiscard]] virtual std::size_t geoms() const = 0;

@@ -1,72 +1,27 @@
 #include "bench/ode/program_bench.hpp"
 
-#include <algorithm>
-#include <cstring>
-#include <utility>
-
 #include "bench/json.hpp"
-#include "bench/ode/collision_calls.hpp"
-#include "bench/ode/program_twin.hpp"
-#include "bench/ode/runtime.hpp"
+#include "bench/ode/twin_bench.hpp"
 
 namespace harpoon::bench {
 namespace {
 
-constexpr unsigned kWarmSteps = 2;
-constexpr unsigned kLeastSteps = 5;
-constexpr unsigned kMostSteps = 2000;
-
-/// What a side took in the measured steps.
-struct Samples {
-  std::vector<double> step_ms, collision_ms;
-
-  void add(const ProgramStep& step) {
-    step_ms.push_back(step.step_ms);
-    collision_ms.push_back(step.work.collision_ms);
-  }
-};
-
-bool are_equal(const ProgramStep& a, const ProgramStep& b) {
-  return a.work.pairs == b.work.pairs && a.work.contacts == b.work.contacts &&
-         a.state.size() == b.state.size() &&
-         std::memcmp(a.state.data(), b.state.data(), a.state.size() * sizeof(dReal)) == 0;
-}
-
-Result<ProgramRow> measure(const ProgramPlan& plan, ProgramKind kind, int socket,
+Result<ProgramRow> measure(const ProgramPlan& plan, ProgramKind kind, int stock,
                            const Interrupted& interrupted) {
-  ProgramTwin twin(socket, kind, plan.geoms, plan.seed);
-  ProgramRun run(kind, plan.geoms, plan.seed);
+  const Result<TwinOutcome> outcome = measure_twins(
+      {.subject = ProgramSubject{kind, plan.geoms, plan.seed}, .seconds = plan.seconds}, stock,
+      interrupted);
+  if (!outcome) return outcome.error();
   ProgramRow row;
   row.program = kind;
-  row.geoms = run.program().geoms();
-  row.identical = true;
-  const unsigned settling = std::max(kWarmSteps, run.program().settling_steps());
-  Samples stock_samples, our_samples;
-  double spent_ms = 0;
-  unsigned measured = 0;
-  for (unsigned step = 0;
-       measured < kMostSteps && (measured < kLeastSteps || spent_ms < plan.seconds * 1e3); ++step) {
-    if (must_stop(interrupted)) return row;
-    const std::optional<ProgramStep> stock = twin.step();
-    if (!stock) {
-      return Error{Errc::device_unavailable, "The process with stock libode has ended. Try again."};
-    }
-    const ProgramStep ours = run.step();
-    row.identical = row.identical && are_equal(*stock, ours);
-    if (step < settling) continue;
-    ++measured;
-    spent_ms += stock->step_ms + ours.step_ms;
-    stock_samples.add(*stock);
-    our_samples.add(ours);
-    row.pairs += static_cast<double>(ours.work.pairs);
-    row.contacts += static_cast<double>(ours.work.contacts);
-  }
-  row.pairs /= measured;
-  row.contacts /= measured;
-  row.stock_step_ms = summarize(stock_samples.step_ms);
-  row.harpoon_step_ms = summarize(our_samples.step_ms);
-  row.stock_collision_ms = summarize(stock_samples.collision_ms);
-  row.harpoon_collision_ms = summarize(our_samples.collision_ms);
+  row.geoms = outcome->geoms;
+  row.stock_step_ms = summarize(outcome->stock.step_ms);
+  row.harpoon_step_ms = summarize(outcome->harpoon.step_ms);
+  row.stock_collision_ms = summarize(outcome->stock.collision_ms);
+  row.harpoon_collision_ms = summarize(outcome->harpoon.collision_ms);
+  row.pairs = outcome->pairs;
+  row.contacts = outcome->contacts;
+  row.identical = outcome->identical;
   return row;
 }
 
@@ -102,11 +57,6 @@ double ProgramRow::speedup() const {
 Result<std::vector<ProgramRow>> run_programs(const ProgramPlan& plan, int stock,
                                              const std::function<void(double)>& share,
                                              const Interrupted& interrupted) {
-  if (!drop_in_is_interposed()) {
-    return Error{Errc::device_unavailable,
-                 "libharpoon_ode is not in front of libode here. Preload it."};
-  }
-  const OdeRuntime ode;
   std::vector<ProgramRow> rows;
   for (const ProgramKind kind : plan.programs) {
     const Result<ProgramRow> row = measure(plan, kind, stock, interrupted);

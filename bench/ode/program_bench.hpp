@@ -1,7 +1,6 @@
 #pragma once
 
-// What whole programs gain: each program twice, in this process with the drop-in and in another
-// with stock libode, step by step in turn. It makes neither process itself.
+// What whole programs gain: each program with stock libode and with the drop-in.
 
 #include <functional>
 #include <string>
@@ -38,8 +37,7 @@ struct ProgramRow {
   [[nodiscard]] double limit() const { return 1 / (1 - share()); }
 };
 
-/// `stock` is a socket at whose other end a process without the drop-in is in serve_programs.
-/// Errors: device_unavailable when the drop-in is not in front of libode, or that process has gone.
+/// `stock` and errors: as measure_twins.
 Result<std::vector<ProgramRow>> run_programs(const ProgramPlan& plan, int stock,
                                              const std::function<void(double)>& share,
                                              const Interrupted& interrupted);

@@ -229,15 +229,33 @@ TEST(BenchOde, AProgramThatRunsAnotherWayIsReported) {
   EXPECT_FALSE(Json::parse(other.out).at("results").at(0).at("identical"));
 }
 
-TEST(BenchOde, WholeProgramsNeedAStockOfTheirOwn) {
-  const std::vector<std::string> preloaded = {"run",   "--",  "/proc/self/exe",
-                                              "bench", "ode", "--program=planner"};
-  const Finished twice = run_piped(preloaded);
-  EXPECT_EQ(twice.exit_code, 2);
-  EXPECT_TRUE(contains(twice.err, "preloaded already")) << twice.err;
-  const Finished alone = run_piped(preloaded, {"HARPOON_BENCH_TWIN=999"});
-  EXPECT_EQ(alone.exit_code, 3);
-  EXPECT_TRUE(contains(alone.err, "The process with stock libode has ended")) << alone.err;
+TEST(BenchOde, AWorldWithOtherContactsIsReported) {
+  const Finished f = run_piped(
+      {"bench", "ode", "--geoms", "600", "--space", "hash", "--seconds", "0", "--json", "-"},
+      {"HARPOON_PRECISION=f32"});
+  EXPECT_EQ(f.exit_code, 1);
+  EXPECT_TRUE(contains(f.err, "the drop-in differs from stock in the hash space")) << f.err;
+  EXPECT_FALSE(Json::parse(f.out).at("results").at(0).at("identical"));
+}
+
+TEST(BenchOde, ATurnOfASmallWorldHasManySteps) {
+  const Finished f = run_piped(
+      {"bench", "ode", "--geoms", "42", "--space", "simple", "--seconds", "0", "--json", "-"});
+  ASSERT_EQ(f.exit_code, 0) << f.err;
+  EXPECT_GT(Json::parse(f.out).at("results").at(0).at("samples"), 20);
+}
+
+TEST(BenchOde, NeedsAStockOfItsOwn) {
+  for (const char* what : {"--program=planner", "--kind=packed"}) {
+    const std::vector<std::string> preloaded = {"run",   "--",  "/proc/self/exe",
+                                                "bench", "ode", what};
+    const Finished twice = run_piped(preloaded);
+    EXPECT_EQ(twice.exit_code, 2);
+    EXPECT_TRUE(contains(twice.err, "preloaded already")) << twice.err;
+    const Finished alone = run_piped(preloaded, {"HARPOON_BENCH_TWIN=999"});
+    EXPECT_EQ(alone.exit_code, 3);
+    EXPECT_TRUE(contains(alone.err, "The process with stock libode has ended")) << alone.err;
+  }
 }
 
 TEST(BenchOde, OptionsThatDoNotGoTogetherAreNamed) {

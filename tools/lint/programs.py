@@ -86,14 +86,17 @@ def headers(tree: Tree):
     yield from _all(work, jobs)
 
 
+TIDY_DATABASE = "build/lint"
 TIDY_ROOMS = ("src/", "apps/", "bench/", "examples/", "sim/")
 
 
 def tidy(tree: Tree):
     """clang-tidy 14 finds nothing in the sources of the product (.clang-tidy names the checks).
 
-    A clean result is remembered under the user's cache folder by the hash of everything it depends
-    on (checks, command, preprocessed text), so a run looks again only at what changed.
+    A source that several targets compile is read once, as the first of them does: the others may
+    need what only their build generates. A clean result is remembered under the user's cache folder
+    by the hash of everything it depends on (checks, command, preprocessed text), so a run looks
+    again only at what changed.
     """
     database = tree.root / "build/release/compile_commands.json"
     if not database.exists():
@@ -105,7 +108,10 @@ def tidy(tree: Tree):
         if path.is_relative_to(tree.root):
             name = str(path.relative_to(tree.root))
             if name.startswith(TIDY_ROOMS) and name in tree.files:
-                entries[name] = entry
+                entries.setdefault(name, entry)
+    chosen = tree.root / TIDY_DATABASE
+    chosen.mkdir(parents=True, exist_ok=True)
+    (chosen / "compile_commands.json").write_text(json.dumps(list(entries.values())))
     cache = pathlib.Path(os.environ.get("XDG_CACHE_HOME") or pathlib.Path.home() / ".cache")
     cache = cache / "harpoon-tidy"
     cache.mkdir(parents=True, exist_ok=True)
@@ -116,7 +122,7 @@ def _tidy_one(tree: Tree, cache: pathlib.Path, name: str, entry: dict):
     remembered = cache / _tidy_key(tree, entry)
     if remembered.exists():
         return []
-    command = ["clang-tidy-14", "--quiet", "-p", "build/release", name]
+    command = ["clang-tidy-14", "--quiet", "-p", TIDY_DATABASE, name]
     found = _diagnostics(tree, "tidy", name, _run(command, tree.root))
     if not found:
         remembered.touch()

@@ -13,6 +13,19 @@ export function launch(...more: string[]): Promise<Browser> {
   return chromium.launch({ executablePath, args: ["--no-sandbox", ...gl, ...more] });
 }
 
+/**
+ * Waits until the page has drawn what was asked of it so far, however slow the machine is: the page
+ * draws in animation frames, and the second one from here begins after all that the first drew.
+ */
+export async function drawn(page: Page): Promise<void> {
+  await page.evaluate(
+    () =>
+      new Promise((resolve) => {
+        requestAnimationFrame(() => requestAnimationFrame(resolve));
+      }),
+  );
+}
+
 /** What a page did besides drawing: its complaints, and every address it asked for. */
 export interface Watched {
   readonly page: Page;
@@ -43,6 +56,6 @@ export async function open(
   });
   page.on("request", (request) => requests.push(request.url()));
   await page.goto(`file://${file}`);
-  await page.waitForTimeout(300);
+  await drawn(page);
   return { page, complaints, requests };
 }

@@ -9,7 +9,7 @@ import { join } from "node:path";
 import { after, test } from "node:test";
 import type { Locator, Page } from "playwright-core";
 import { parse_report } from "../src/schema.ts";
-import { launch, open } from "./browser.ts";
+import { drawn, launch, open } from "./browser.ts";
 import { count_colour, line_height, painted } from "./pixels.ts";
 import { data_of, fill, sample } from "./template.ts";
 
@@ -54,7 +54,7 @@ async function isolate(entries: Locator, only: number): Promise<void> {
       if (shown !== (n === wanted)) (button as HTMLButtonElement).click();
     });
   }, only);
-  await entries.page().waitForTimeout(60);
+  await drawn(entries.page());
 }
 
 async function choose(figure: Locator, legend: string, value: string): Promise<void> {
@@ -163,11 +163,11 @@ test("pointer and keys read out values with units and spread", async () => {
     };
     assert.equal(await check(false), Math.max(...counts));
     await figure.locator(".u-over").hover({ position: { x: 200, y: 90 } });
-    await page.waitForTimeout(60);
+    await drawn(page);
     assert.ok((await check(false)) < Math.max(...counts), "the pointer moved nothing");
     await figure.locator(".plot").focus();
     await page.keyboard.press("Home");
-    await page.waitForTimeout(60);
+    await drawn(page);
     assert.equal(await check(false), Math.min(...counts));
     await choose(figure, "y shows", "each");
     await check(true);
@@ -201,18 +201,18 @@ test("the switch between linear and log changes the drawn axes", async () => {
     for (const scale of ["log", "linear"] as const) {
       for (const axis of ["x axis", "y axis"]) await choose(figure, axis, scale);
       await page.mouse.move(0, 0);
-      await page.waitForTimeout(100);
+      await drawn(page);
       const seen = scale === "log" ? Math.log : (value: number): number => value;
       const left = scale === "log" ? Math.log(points[0]?.count ?? 1) : 0;
       const shares = three.map((p) => (seen(p.count) - left) / (seen(last.count) - left));
       const [a = 0, b = 0, c = 0] = three.map((p) => seen(p.total_us));
-      const drawn = await way(
+      const share = await way(
         figure.locator(".plot"),
         colour,
         shares.map((s) => Math.min(s, 0.998)),
       );
-      assert.ok(Math.abs(drawn - (b - a) / (c - a)) < 0.06, `figure ${id}, ${scale}: ${drawn}`);
-      assert.ok(scale === "log" ? drawn > 0.3 : drawn < 0.3, `figure ${id}, ${scale}: ${drawn}`);
+      assert.ok(Math.abs(share - (b - a) / (c - a)) < 0.06, `figure ${id}, ${scale}: ${share}`);
+      assert.ok(scale === "log" ? share > 0.3 : share < 0.3, `figure ${id}, ${scale}: ${share}`);
     }
   }
   await page.context().close();
@@ -238,7 +238,7 @@ for (const painter of ["webgl", "canvas"]) {
         );
         await stage.focus();
         await page.keyboard.press("ArrowLeft");
-        await page.waitForTimeout(400);
+        await drawn(page);
         const turned = await painted(stage);
         assert.notEqual(turned.hash, before.hash, "keys turn it");
         const box = await stage.boundingBox();
@@ -247,7 +247,7 @@ for (const painter of ["webgl", "canvas"]) {
         await page.mouse.down();
         await page.mouse.move(box.x + 120, box.y + 90);
         await page.mouse.up();
-        await page.waitForTimeout(400);
+        await drawn(page);
         assert.notEqual((await painted(stage)).hash, turned.hash, "the pointer turns it");
       }
     } finally {
@@ -288,7 +288,7 @@ test("CSV files hold the data, and the command is copied", async () => {
     assert.equal(rows.length, 1 + series.reduce((sum, { points }) => sum + points.length, 0));
   }
   await page.getByRole("button", { name: "Copy" }).click();
-  await page.getByText("copied").waitFor({ timeout: 2000 });
+  await page.getByText("copied").waitFor();
   assert.equal(await page.evaluate(() => navigator.clipboard.readText()), report.command);
   await page.context().close();
 });

@@ -28,9 +28,9 @@ module delay_line #(
     logic             unused_rst;
     logic [Width-1:0] line_q [Latency];
     assign unused_rst = rst_ni;
-    always_ff @(posedge clk_i) begin
-      line_q[0] <= d_i;
-      for (int i = 1; i < Latency; i++) line_q[i] <= line_q[i-1];
+    always_ff @(posedge clk_i) line_q[0] <= d_i;
+    for (genvar i = 1; i < Latency; i++) begin : gen_place
+      always_ff @(posedge clk_i) line_q[i] <= line_q[i-1];
     end
     assign q_o = line_q[Latency-1];
   end else begin : gen_ram

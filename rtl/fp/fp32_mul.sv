@@ -19,35 +19,39 @@ module fp32_mul (
 
   // Stage 1: classify; put the operand that may be subnormal first. Leading zeros are counted of
   // both, beside the finding of which it is.
-  logic        a_normal, b_normal, a_nan, b_nan, a_inf, b_inf, a_zero, b_zero;
-  logic [23:0] first, second;
-  logic [4:0]  a_zeros, b_zeros;
-  always_comb begin
-    a_normal = |a_i[30:23];
-    b_normal = |b_i[30:23];
-    a_nan    = (&a_i[30:23]) & (|a_i[22:0]);
-    b_nan    = (&b_i[30:23]) & (|b_i[22:0]);
-    a_inf    = (&a_i[30:23]) & ~(|a_i[22:0]);
-    b_inf    = (&b_i[30:23]) & ~(|b_i[22:0]);
-    a_zero   = ~a_normal & ~(|a_i[22:0]);
-    b_zero   = ~b_normal & ~(|b_i[22:0]);
-    first    = a_normal ? {b_normal, b_i[22:0]} : {1'b0, a_i[22:0]};
-    a_zeros  = fp32_pkg::leading_zeros31({1'b0, a_i[22:0], 7'h40});
-    b_zeros  = fp32_pkg::leading_zeros31({1'b0, b_i[22:0], 7'h40});
-    second   = a_normal ? {1'b1, a_i[22:0]} : {b_normal, b_i[22:0]};
-  end
-  logic [3:0]  s1_class_q;  // sign, NaN, infinity, zero; likewise below
+  logic a_normal, b_normal;
+  assign a_normal = |a_i[30:23];
+  assign b_normal = |b_i[30:23];
+  logic [3:0]  s1_class_q;  // sign, then the first that is set: NaN, infinity, zero
   logic [8:0]  s1_exp_q;  // sum of the biased exponents, 2..508
-  logic [4:0]  s1_zeros_q;
+  logic [4:0]  s1_a_zeros_q, s1_b_zeros_q;  // of the first: the other is 0
   logic [23:0] s1_first_q, s1_second_q;
+  leading_zeros31 u_a_zeros (
+    .clk_i,
+    .clear_i (a_normal),
+    .x_i     ({1'b0, a_i[22:0], 7'h40}),
+    .n_o     (s1_a_zeros_q)
+  );
+  leading_zeros31 u_b_zeros (
+    .clk_i,
+    .clear_i (b_normal | ~a_normal),
+    .x_i     ({1'b0, b_i[22:0], 7'h40}),
+    .n_o     (s1_b_zeros_q)
+  );
   always_ff @(posedge clk_i) begin
-    s1_class_q  <= {a_i[31] ^ b_i[31], a_nan | b_nan | (a_inf & b_zero) | (b_inf & a_zero),
-                    a_inf | b_inf, a_zero | b_zero};
+    logic a_ones, b_ones, a_some, b_some, a_zero, b_zero;
+    a_ones = &a_i[30:23];
+    b_ones = &b_i[30:23];
+    a_some = |a_i[22:0];
+    b_some = |b_i[22:0];
+    a_zero = ~(a_normal | a_some);
+    b_zero = ~(b_normal | b_some);
+    s1_class_q  <= {a_i[31] ^ b_i[31], (a_ones & (a_some | b_zero)) | (b_ones & (b_some | a_zero)),
+                    a_ones | b_ones, a_zero | b_zero};
     s1_exp_q    <= {1'b0, a_i[30:24], a_i[23] | ~a_normal}
                  + {1'b0, b_i[30:24], b_i[23] | ~b_normal};
-    s1_zeros_q  <= ~a_normal ? a_zeros : ~b_normal ? b_zeros : 5'd0;
-    s1_first_q  <= first;
-    s1_second_q <= second;
+    s1_first_q  <= a_normal ? {b_normal, b_i[22:0]} : {1'b0, a_i[22:0]};
+    s1_second_q <= a_normal ? {1'b1, a_i[22:0]} : {b_normal, b_i[22:0]};
   end
 
   // Stage 2: normalise. The exponent is that of a product whose leading one is bit 46.
@@ -55,9 +59,11 @@ module fp32_mul (
   logic signed [10:0] s2_exp_q;
   logic [23:0]        s2_first_q, s2_second_q;
   always_ff @(posedge clk_i) begin
+    logic [4:0] zeros;
+    zeros = s1_a_zeros_q | s1_b_zeros_q;
     s2_class_q  <= s1_class_q;
-    s2_exp_q    <= $signed({2'b00, s1_exp_q}) - $signed({6'd0, s1_zeros_q}) - 11'sd127;
-    s2_first_q  <= s1_first_q << s1_zeros_q;
+    s2_exp_q    <= $signed({2'b00, s1_exp_q}) - $signed({6'd0, zeros}) - 11'sd127;
+    s2_first_q  <= s1_first_q << zeros;
     s2_second_q <= s1_second_q;
   end
 
@@ -80,7 +86,7 @@ module fp32_mul (
   logic [7:0] s4_exp_q;
   logic [4:0] s4_shift_q;
   always_ff @(posedge clk_i) begin
-    s4_class_q  <= {s3_class_q[3:2], s3_class_q[1] | (s3_exp_q >= 11'sd255), s3_class_q[0]};
+    s4_class_q  <= s3_class_q | {2'b00, s3_exp_q >= 11'sd255, 1'b0};
     s4_top_q    <= (s3_exp_q == 11'sd254);
     s4_normal_q <= (s3_exp_q >= 11'sd1);
     s4_exp_q    <= s3_exp_q[7:0];
@@ -101,22 +107,18 @@ module fp32_mul (
   end
 
   // Stage 6: shift a tiny product to where exponent 1 has it; keep 26 bits and a sticky bit.
-  logic [25:0] upper;
-  logic        lost;
-  always_comb begin
-    upper = product[47:22] >> s5_shift_q;
-    lost  = |(product[47:22] & ~(26'h3ff_ffff << s5_shift_q));
-  end
   logic [3:0]  s6_class_q;
   logic        s6_normal_q, s6_sticky_q;
   logic [7:0]  s6_exp_q;
   logic [25:0] s6_upper_q;
   always_ff @(posedge clk_i) begin
-    s6_class_q  <= {s5_class_q[3:2], s5_class_q[1] | (s5_top_q & product[47]), s5_class_q[0]};
+    logic lost;
+    lost = |(product[47:22] & ~(26'h3ff_ffff << s5_shift_q));
+    s6_class_q  <= s5_class_q | {2'b00, s5_top_q & product[47], 1'b0};
     s6_normal_q <= s5_normal_q;
     s6_exp_q    <= s5_exp_q;
     s6_sticky_q <= (|product[21:0]) | lost;
-    s6_upper_q  <= upper;
+    s6_upper_q  <= product[47:22] >> s5_shift_q;
   end
 
   // Stage 7: leading one to the hidden place; decide the rounding.
@@ -124,13 +126,13 @@ module fp32_mul (
   // |       1       |   1    |      25      | exponent + 1    |
   // |       1       |   0    |      24      | exponent        |
   // |       0       |   x    |      25      | bit 25 (0 or 1) |
-  logic by_one;
-  assign by_one = s6_normal_q & ~s6_upper_q[25];
   logic [3:0]  s7_class_q;
   logic        s7_up_q;
   logic [7:0]  s7_exp_q;
   logic [22:0] s7_frac_q;
   always_ff @(posedge clk_i) begin
+    logic by_one;
+    by_one = s6_normal_q & ~s6_upper_q[25];
     s7_class_q <= s6_class_q;
     s7_exp_q   <= (s6_normal_q ? s6_exp_q : 8'd0) + {7'd0, s6_upper_q[25]};
     s7_frac_q  <= by_one ? s6_upper_q[23:1] : s6_upper_q[24:2];
@@ -139,9 +141,9 @@ module fp32_mul (
   end
 
   // Stage 8: round, pack. A carry out of the fraction increments the exponent, up to infinity.
-  logic [30:0] rounded;
-  assign rounded = {s7_exp_q, s7_frac_q} + {30'd0, s7_up_q};
   always_ff @(posedge clk_i) begin
+    logic [30:0] rounded;
+    rounded = {s7_exp_q, s7_frac_q} + {30'd0, s7_up_q};
     if (s7_class_q[2])      y_o <= fp32_pkg::QuietNan;
     else if (s7_class_q[1]) y_o <= {s7_class_q[3], 8'hff, 23'd0};
     else if (s7_class_q[0]) y_o <= {s7_class_q[3], 31'd0};

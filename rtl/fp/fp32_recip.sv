@@ -33,9 +33,14 @@ module fp32_recip (
     s1_zero_q  <= (&a_i[30:23]);
     s1_inf_q   <= ~normal & ~(|a_i[22:0]);
     s1_exp_q   <= {a_i[30:24], a_i[23] | ~normal};
-    s1_zeros_q <= fp32_pkg::leading_zeros31({normal, a_i[22:0], 7'h40});
     s1_den_q   <= {normal, a_i[22:0]};
   end
+  leading_zeros31 u_zeros (
+    .clk_i,
+    .clear_i (normal),
+    .x_i     ({1'b0, a_i[22:0], 7'h40}),
+    .n_o     (s1_zeros_q)
+  );
 
   // Stage 2: normalise. exp is one more than the biased exponent of the result (before it rounds up
   // to a power of two), so never negative: 0..277.
@@ -68,21 +73,16 @@ module fp32_recip (
   for (genvar g = 0; g + 2 < Steps; g++) begin : gen_side
     always_ff @(posedge clk_i) side_q[g+1] <= side_q[g];
   end
-  for (genvar g = 0; g < Steps; g++) begin : gen_step
-    logic [25:0] trial;  // negative: the bit is 0
-    assign trial = {rem_q[g], 1'b0} - {2'b00, den_q[g]};
-    if (g + 1 < Steps) begin : gen_next
-      always_ff @(posedge clk_i) begin
-        rem_q[g+1]  <= trial[25] ? {rem_q[g][23:0], 1'b0} : trial[24:0];
-        den_q[g+1]  <= den_q[g];
-        quo_q[g+1]  <= {quo_q[g][22:0], ~trial[25]};
-      end
-    end else begin : gen_last
-      logic unused_trial;
-      assign unused_trial = ^trial[24:0];
-      assign last_bit     = ~trial[25];
+  for (genvar g = 0; g + 1 < Steps; g++) begin : gen_step
+    always_ff @(posedge clk_i) begin
+      logic [25:0] trial;  // negative: the bit is 0
+      trial = {rem_q[g], 1'b0} - {2'b00, den_q[g]};
+      rem_q[g+1] <= trial[25] ? {rem_q[g][23:0], 1'b0} : trial[24:0];
+      den_q[g+1] <= den_q[g];
+      quo_q[g+1] <= {quo_q[g][22:0], ~trial[25]};
     end
   end
+  assign last_bit = ({rem_q[Steps-1], 1'b0} >= {2'b00, den_q[Steps-1]});
 
   // Stage 26 also: the exponent field, and whether the result is subnormal by one or two places.
   logic [3:0] s26_class_q;
@@ -110,9 +110,9 @@ module fp32_recip (
   end
 
   // Stage 28: round, pack. A carry out of the fraction increments the exponent, up to infinity.
-  logic [30:0] rounded;
-  assign rounded = cut_q + {30'd0, up_q};
   always_ff @(posedge clk_i) begin
+    logic [30:0] rounded;
+    rounded = cut_q + {30'd0, up_q};
     if (nan_q)       y_o <= fp32_pkg::QuietNan;
     else if (zero_q) y_o <= {sign_q, 31'd0};
     else if (inf_q)  y_o <= {sign_q, 8'hff, 23'd0};

@@ -40,10 +40,15 @@ module fp32_sqrt_greater (
     s1_true_q  <= a_inf | b_i[31] | ~(|b_i[30:23]);
     s1_a_exp_q <= {a_i[30:24], a_i[23] | ~a_normal};
     s1_b_exp_q <= b_i[30:23];
-    s1_zeros_q <= fp32_pkg::leading_zeros31({a_normal, a_i[22:0], 7'h40});
     s1_a_q     <= {a_normal, a_i[22:0]};
     s1_b_q     <= {1'b1, b_i[22:0]};
   end
+  leading_zeros31 u_zeros (
+    .clk_i,
+    .clear_i (a_normal),
+    .x_i     ({1'b0, a_i[22:0], 7'h40}),
+    .n_o     (s1_zeros_q)
+  );
 
   // Stage 2: normalise a; k - 25.
   logic               s2_true_q, s2_false_q;

@@ -11,9 +11,9 @@ module mul24 (
 );
   logic [40:0] low_q, low2_q;
   logic [31:0] high_q, high2_q;
-  logic [31:0] upper;
-  assign upper = high2_q + {8'd0, low2_q[40:17]};
   always_ff @(posedge clk_i) begin
+    logic [31:0] upper;
+    upper = high2_q + {8'd0, low2_q[40:17]};
     low_q   <= a_i * b_i[16:0];
     high_q  <= a_i * b_i[24:17];
     low2_q  <= low_q;

@@ -232,6 +232,7 @@ def synthesise(top: Top, family: Family) -> dict[str, int]:
     if CLOCK_GATE in needs(top.module):
         boxes.append(CLOCK_GATE)
     script += f"blackbox {' '.join(boxes)}\n" if boxes else ""
+    script += "" if top.cell else "proc\nflatten *fp32_*\n"
     script += f"{family.command} {option} -top {top.module}\ntee -q -o {report} stat\n"
     if not kept(name, script):
         yosys(script, name)

@@ -12,7 +12,9 @@ module line_digest (
   logic [63:0] digest_q, fold;
   logic        fold_valid_q;
 
-  line_fold u_fold (.clk_i, .valid_i, .line_i, .fold_o(fold));
+  line_fold u_fold (
+    .clk_i, .valid_i, .line_i, .or_valid_i(1'b0), .or_line_i('0), .fold_o(fold)
+  );
 
   assign digest_o = digest_q;
 

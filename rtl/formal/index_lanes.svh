@@ -140,7 +140,7 @@
       lanes_stable: assert (valid_o && $stable(mask_o) && $stable(numbers_o));
     if (!$past(start_i) && $past(index_error_o)) lanes_error_stays: assert (index_error_o);
     if ($past(slice_valid_q && present_q[0] && !start_i
-              && 32'(slice_q[15:0]) >= sphere_count_i))
+              && 32'(slice_q[15:0]) >= spheres_q))
       lanes_error_seen: assert (index_error_o);
     if ($past(!index_error_o) && index_error_o)
       lanes_error_true: assert ($past(slice_valid_q) && $past(outside) != '0);

@@ -26,6 +26,7 @@ PACKAGES = ["pkg/harpoon_contract_pkg.sv"]
 PROOFS = {
     "fifo": (["cells/fifo.sv"], {"Width": 4, "Depth": 4}, 2, 9),
     "credits": (["cells/credits.sv"], {"Count": 5}, 2, 9),
+    "register_slice": (["cells/register_slice.sv"], {"Width": 4}, 2, 5),
     "collector": (["puc/collector.sv"], {"CountWidth": 4}, 2, 8),
     "dispatcher": (["puc/dispatcher.sv"], {}, 2, 5),
     "spl2_reader": (["spl2/spl2_reader.sv"], {"MaxInFlight": 4}, 2, 10),

@@ -15,11 +15,23 @@ module collector #(parameter int unsigned CountWidth = 32) (
   assign table_data_o  = data_i;
   assign source_data_o = data_i;
 endmodule
+module clock_gate (input logic clk_i, enable_i, output logic clk_o);
+  assign clk_o = enable_i;
+endmodule
+module register_slice #(parameter int unsigned Width = 8) (
+  input logic clk_i, rst_ni, valid_i, ready_i,
+  input logic [Width-1:0] data_i,
+  output logic ready_o, valid_o,
+  output logic [Width-1:0] data_o
+);
+  (* anyseq *) logic [Width+1:0] any;
+  assign {ready_o, valid_o, data_o} = any;
+endmodule
 module index_lanes #(
   parameter int unsigned Lanes = 10, parameter int unsigned Spheres = 16384,
   parameter int unsigned Depth = 128
 ) (
-  input logic clk_i, rst_ni, start_i, table_clear_i, table_valid_i, valid_i, ready_i,
+  input logic clk_i, clk_free_i, rst_ni, start_i, table_clear_i, table_valid_i, valid_i, ready_i,
   input logic [31:0] sphere_count_i,
   input logic [511:0] table_data_i, line_i,
   input logic [30:0] number_i,
@@ -75,8 +87,8 @@ module line_digest (
   assign digest_o = any;
 endmodule
 module line_fold (
-  input logic clk_i, valid_i,
-  input logic [511:0] line_i,
+  input logic clk_i, valid_i, or_valid_i,
+  input logic [511:0] line_i, or_line_i,
   output logic [63:0] fold_o
 );
   (* anyseq *) logic [63:0] any;

@@ -38,11 +38,17 @@
   logic [NumScpu-1:0] f_at [0:2];
   logic [NumScpu-1:0] f_coloured [0:2];
   for (genvar g = 0; g < NumScpu; g++) begin : gen_f_scpu
+    logic           f_running, f_start, f_colour;
+    logic [RUN-1:0] f_run;
+    assign f_running = gen_column[g/SLOTS].running;
+    assign f_run     = gen_column[g/SLOTS].run_q;
+    assign f_start   = gen_column[g/SLOTS].gen_slot[g%SLOTS].start_q;
+    assign f_colour  = gen_column[g/SLOTS].gen_slot[g%SLOTS].pair_q[0];
     logic [1:0] f_valid_q, f_colour_q;
     always_ff @(posedge clk_i) begin
       if (!rst_ni) f_valid_q <= '0;
-      else if (gen_scpu[g].running) f_valid_q <= {f_valid_q[0], gen_scpu[g].start_q};
-      if (gen_scpu[g].running) f_colour_q <= {f_colour_q[0], gen_scpu[g].pair_q[0]};
+      else if (f_running) f_valid_q <= {f_valid_q[0], f_start};
+      if (f_running) f_colour_q <= {f_colour_q[0], f_colour};
     end
     always_comb begin
       assume (done[g] == f_valid_q[1]);
@@ -50,14 +56,14 @@
     end
     // it ticks as long as it holds a pair
     always_comb if (f_past_q && rst_ni) begin
-      if (gen_scpu[g].start_q) assert (gen_scpu[g].run_q == RUN'(scpu_pkg::Latency + 2));
-      if (f_valid_q[0]) assert (gen_scpu[g].run_q >= RUN'(scpu_pkg::Latency + 1));
-      if (f_valid_q[1]) assert (gen_scpu[g].run_q >= RUN'(scpu_pkg::Latency));
+      if (f_start) assert (f_run == RUN'(scpu_pkg::Latency + 2));
+      if (f_valid_q[0]) assert (f_run >= RUN'(scpu_pkg::Latency + 1));
+      if (f_valid_q[1]) assert (f_run >= RUN'(scpu_pkg::Latency));
     end
-    assign f_at[0][g] = gen_scpu[g].start_q;
+    assign f_at[0][g] = f_start;
     assign f_at[1][g] = f_valid_q[0];
     assign f_at[2][g] = f_valid_q[1];
-    assign f_coloured[0][g] = gen_scpu[g].start_q & gen_scpu[g].pair_q[0];
+    assign f_coloured[0][g] = f_start & f_colour;
     assign f_coloured[1][g] = f_valid_q[0] & f_colour_q[0];
     assign f_coloured[2][g] = f_valid_q[1] & f_colour_q[1];
   end

@@ -52,8 +52,8 @@ module spl2_page_table #(parameter int unsigned MaxPages = 4) (
   assign {read_ok_o, write_ok_o, read_line_o, write_line_o} = any;
 endmodule
 module line_fold (
-  input logic clk_i, valid_i,
-  input logic [511:0] line_i,
+  input logic clk_i, valid_i, or_valid_i,
+  input logic [511:0] line_i, or_line_i,
   output logic [63:0] fold_o
 );
   (* anyseq *) logic [63:0] any;

@@ -15,7 +15,8 @@
 // up to Patience cycles for the next slice instead of running empty.
 //
 // `index_error_o` (sticky until `start_i`): a pair named a sphere at or beyond `sphere_count_i`.
-// Lanes is 1 to 16. `idle_o`: nothing inside.
+// Lanes is 1 to 16. `idle_o`: nothing inside. `clk_i` may be gated; `clk_free_i` is that clock
+// before its gate, for the gate of the cull lanes.
 module index_lanes #(
   parameter int unsigned Lanes   = 10,
   parameter int unsigned Spheres = 16384,
@@ -23,6 +24,7 @@ module index_lanes #(
   parameter int unsigned Patience = 4
 ) (
   input  logic         clk_i,
+  input  logic         clk_free_i,
   input  logic         rst_ni,
   input  logic         start_i,
   input  logic [31:0]  sphere_count_i,
@@ -114,12 +116,14 @@ module index_lanes #(
   end
 
   // ---- range check ----
+  logic [31:0]      spheres_q;   // where the lanes are: the PUC's count is not
   logic [Lanes-1:0] outside;
   for (genvar g = 0; g < Lanes; g++) begin : gen_range
-    assign outside[g] = present_q[g] & ((32'(slice_q[32*g +: 16]) >= sphere_count_i)
-                                      | (32'(slice_q[32*g+16 +: 16]) >= sphere_count_i));
+    assign outside[g] = present_q[g] & ((32'(slice_q[32*g +: 16]) >= spheres_q)
+                                      | (32'(slice_q[32*g+16 +: 16]) >= spheres_q));
   end
   always_ff @(posedge clk_i) begin
+    spheres_q <= sphere_count_i;
     if (!rst_ni || start_i) index_error_o <= 1'b0;
     else if (slice_valid_q & (|outside)) index_error_o <= 1'b1;
   end
@@ -149,7 +153,7 @@ module index_lanes #(
     if (!rst_ni || fetch_q[1]) pause_q <= '0;
     else if (pause_q != PAUSE'(Patience)) pause_q <= pause_q + PAUSE'(1);
   end
-  clock_gate u_gate (.clk_i, .enable_i(running), .clk_o(clk));
+  clock_gate u_gate (.clk_i(clk_free_i), .enable_i(running), .clk_o(clk));
   for (genvar g = 0; g < Lanes; g++) begin : gen_lane
     assign port_enable[2*g +: 2]    = {2{lookup}};
     assign port_index[2*g*W +: W]     = slice_q[32*g +: W];

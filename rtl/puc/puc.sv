@@ -136,19 +136,45 @@ module puc #(
   logic [31:0]  loaded_q;
   logic         table_loading_q;
   assign lanes_valid = source_valid & indexed & ~table_loading_q;
+
+  // Their clock is gated in the other formats. The slice keeps the lines of those away from them.
+  logic         lanes_clk, rst_nq, line_valid, line_ready, line_last;
+  logic [511:0] line;
+  logic [30:0]  line_number;
+  logic [4:0]   line_count;
+  always_ff @(posedge clk_i) rst_nq <= rst_ni;
+  clock_gate u_lanes_gate (
+    .clk_i,
+    .enable_i (indexed | start_q | ~rst_ni | ~rst_nq),
+    .clk_o    (lanes_clk)
+  );
+  register_slice #(.Width(512 + 31 + 5 + 1)) u_slice (
+    .clk_i   (lanes_clk),
+    .rst_ni,
+    .valid_i (lanes_valid),
+    .ready_o (lanes_ready),
+    .data_i  ({barrier_i | (left_q <= 32'(PER_LINE)),
+               (left_q >= 32'(PER_LINE)) ? 5'(PER_LINE) : left_q[4:0],
+               number_q[30:0], source_data}),
+    .valid_o (line_valid),
+    .ready_i (line_ready),
+    .data_o  ({line_last, line_count, line_number, line})
+  );
   index_lanes #(.Lanes(Lanes), .Spheres(Spheres)) u_lanes (
-    .clk_i, .rst_ni,
+    .clk_i          (lanes_clk),
+    .clk_free_i     (clk_i),
+    .rst_ni,
     .start_i        (start_q),
     .sphere_count_i (loaded_q),
     .table_clear_i  (start_q),
     .table_valid_i  (table_valid),
     .table_data_i   (table_data),
-    .valid_i        (lanes_valid),
-    .ready_o        (lanes_ready),
-    .line_i         (source_data),
-    .number_i       (number_q[30:0]),
-    .count_i        ((left_q >= 32'(PER_LINE)) ? 5'(PER_LINE) : left_q[4:0]),
-    .last_i         (barrier_i | (left_q <= 32'(PER_LINE))),
+    .valid_i        (line_valid),
+    .ready_o        (line_ready),
+    .line_i         (line),
+    .number_i       (line_number),
+    .count_i        (line_count),
+    .last_i         (line_last),
     .more_i         (more),
     .valid_o        (lane_beat_valid),
     .ready_i        (array_ready & indexed),
@@ -224,7 +250,7 @@ module puc #(
     .hits_o        (hits),
     .pairs_o       (scpu_pairs)
   );
-  assign drained = lanes_idle & array_idle & dispatcher_idle;
+  assign drained = ~line_valid & lanes_idle & array_idle & dispatcher_idle;
 
   // ---- digests of what came and what went ----
   logic        line_taken, line_sent;
@@ -346,9 +372,11 @@ module puc #(
   // The lines hold still between fold and send: the counters stop before they are sent.
   line_fold u_fold (
     .clk_i,
-    .valid_i (take_control_data | (state_q == Fold)),
-    .line_i  (take_control_data ? {64'd0, data_i[447:0]} : own_line),
-    .fold_o  (fold)
+    .valid_i      (take_control_data),
+    .line_i       ({64'd0, data_i[447:0]}),
+    .or_valid_i   (state_q == Fold),
+    .or_line_i    (own_line),
+    .fold_o       (fold)
   );
 
   // ---- what arrives while fetching ----

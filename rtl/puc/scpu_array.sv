@@ -9,8 +9,8 @@
 // two cycles.
 //
 // The SCPUs move all together or not at all. While `more_i` says that beats are on their way, they
-// wait up to Patience cycles for the next one instead of running empty. The clock of an SCPU that
-// holds no pair, or waits, is gated.
+// wait up to Patience cycles for the next one instead of running empty. The clock of two SCPUs that
+// hold no pair, or wait, is gated.
 //
 // `mask_i` says which of the two pairs are there (01 or 11); the tags travel along. Latency: that
 // of the SCPU plus 5, and the waiting. Legal: NumScpu = 1 or even, turns and Depth powers of two,
@@ -20,7 +20,7 @@ module scpu_array #(
   parameter int unsigned TagWidth   = 31,
   parameter int unsigned Depth      = 256,
   parameter int unsigned FirstTurn  = 64,
-  parameter int unsigned LastTurn   = 1024,
+  parameter int unsigned LastTurn   = 4096,
   parameter int unsigned Patience   = 4
 ) (
   input  logic                  clk_i,
@@ -109,35 +109,35 @@ module scpu_array #(
 
   logic [NumScpu-1:0]     done;
   logic [256*NumScpu-1:0] contact;
-  for (genvar g = 0; g < NumScpu; g++) begin : gen_scpu
-    localparam int unsigned COLUMN = g / SLOTS;
-    localparam int unsigned SLOT   = g % SLOTS;
-    logic           mine, start_q, clk, running;
-    logic [255:0]   pair_q;
+  for (genvar c = 0; c < COLUMNS; c++) begin : gen_column
+    logic           mine, clk, running;
     logic [RUN-1:0] run_q;
 
-    assign mine    = issue & issue_mask[SLOT] & (column_q == COL'(COLUMN));
+    assign mine    = issue & (column_q == COL'(c));
     assign running = (step & (mine | (run_q != '0))) | ~scpu_rst_nq;
     always_ff @(posedge clk_i) begin
-      if (!rst_ni) begin
-        start_q <= 1'b0;
-        run_q   <= '0;
-      end else if (step) begin
-        start_q <= mine;
-        if (mine) run_q <= RUN'(scpu_pkg::Latency + 2);
-        else if (run_q != '0) run_q <= run_q - RUN'(1);
-      end
-      if (mine) pair_q <= issue_pairs[256*SLOT +: 256];
+      if (!rst_ni) run_q <= '0;
+      else if (mine) run_q <= RUN'(scpu_pkg::Latency + 2);
+      else if (step & (run_q != '0)) run_q <= run_q - RUN'(1);
     end
     clock_gate u_gate (.clk_i, .enable_i(running), .clk_o(clk));
-    scpu u_scpu (
-      .clk_i     (clk),
-      .rst_ni    (scpu_rst_nq),
-      .valid_i   (start_q),
-      .pair_i    (pair_q),
-      .valid_o   (done[g]),
-      .contact_o (contact[256*g +: 256])
-    );
+    for (genvar s = 0; s < SLOTS; s++) begin : gen_slot
+      logic         start_q;
+      logic [255:0] pair_q;
+      always_ff @(posedge clk_i) begin
+        if (!rst_ni) start_q <= 1'b0;
+        else if (step) start_q <= mine & issue_mask[s];
+        if (mine & issue_mask[s]) pair_q <= issue_pairs[256*s +: 256];
+      end
+      scpu u_scpu (
+        .clk_i     (clk),
+        .rst_ni    (scpu_rst_nq),
+        .valid_i   (start_q),
+        .pair_i    (pair_q),
+        .valid_o   (done[SLOTS*c+s]),
+        .contact_o (contact[256*(SLOTS*c+s) +: 256])
+      );
+    end
   end
 
   // ---- collect: in each slot at most one SCPU finishes in a cycle ----

@@ -205,7 +205,6 @@ module spl2 #(
   logic [42:0] entry_page_q;
   logic        entry_mapped_q;
   logic [31:0] entry_index_q;
-  logic        fold_valid;
 
   assign loading    = (state_q == ContextWait) | (state_q == Entries);
   assign load_line  = loading & reader_rsp_valid;
@@ -214,13 +213,14 @@ module spl2 #(
                     & (entry_index_q == 32'(stored_q));
   assign entry_bad  = (state_q == Entries) & entry_valid_q & ~entry_good;
   assign context_bad = (state_q == ContextCheck) & ~(check_good & context_good_q);
-  assign fold_valid = load_line | (own_q == OwnFold);
 
   line_fold u_fold (
     .clk_i,
-    .valid_i (fold_valid),
-    .line_i  (load_line ? {64'd0, data_o[447:0]} : own_line),
-    .fold_o  (fold)
+    .valid_i    (load_line),
+    .line_i     ({64'd0, data_o[447:0]}),
+    .or_valid_i (own_q == OwnFold),
+    .or_line_i  (own_line),
+    .fold_o     (fold)
   );
 
   always_ff @(posedge clk_i) begin

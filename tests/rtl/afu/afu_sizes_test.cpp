@@ -91,9 +91,9 @@ TEST(AfuSizes, TakesTheseCycles) {
     std::uint32_t scpus;
     std::uint64_t direct, indexed;
   };
-  constexpr std::array kGolden{Golden{1, 8516, 20900}, Golden{2, 8516, 10900},
-                               Golden{4, 8516, 5916},  Golden{6, 8516, 4440},
-                               Golden{10, 8516, 4373}, Golden{16, 8516, 4339}};
+  constexpr std::array kGolden{Golden{1, 8516, 20901}, Golden{2, 8516, 10901},
+                               Golden{4, 8516, 5917},  Golden{6, 8516, 4440},
+                               Golden{10, 8516, 4372}, Golden{16, 8516, 4339}};
   const auto golden = std::find_if(kGolden.begin(), kGolden.end(),
                                    [](const Golden& g) { return g.scpus == kScpus; });
   ASSERT_NE(golden, kGolden.end());

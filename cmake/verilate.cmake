@@ -17,6 +17,9 @@ if(NOT HARPOON_VERILATOR OR NOT HARPOON_MAKE)
   return()
 endif()
 set(HARPOON_HAVE_VERILATOR ON CACHE INTERNAL "May harpoon_verilate be called?")
+# Its makefiles announce every archive; what goes wrong is told on the other stream.
+set(HARPOON_VERILATE sh -c "exec \"$@\" >/dev/null" verilator ${HARPOON_VERILATOR}
+    CACHE INTERNAL "Verilator, quiet")
 
 find_program(HARPOON_MODEL_CXX NAMES clang++ clang++-14 DOC "Compiler of the Verilated models")
 if(NOT HARPOON_MODEL_CXX)
@@ -63,7 +66,7 @@ function(harpoon_verilate)
   endif()
   add_custom_command(
     OUTPUT ${archive}
-    COMMAND ${HARPOON_VERILATOR} --cc --build -O3 -Wall --top-module ${arg_TOP} --Mdir ${folder}
+    COMMAND ${HARPOON_VERILATE} --cc --build -O3 -Wall --top-module ${arg_TOP} --Mdir ${folder}
             -MAKEFLAGS ${make_flags} -CFLAGS -w ${arg_OPTIONS} ${rtl}/waivers.vlt ${search}
             ${sources}
     DEPENDS ${depends}

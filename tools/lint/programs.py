@@ -148,8 +148,8 @@ VERILATOR_MESSAGE = re.compile(r"%\S+: (\S+?):(\d+):(?:\d+:)? (.*)")
 
 
 def verilog(tree: Tree):
-    """Verilator -Wall finds nothing in any module of rtl/, each read as a top of its own; what is
-    waived stands with its reason in rtl/waivers.vlt."""
+    """Verilator -Wall finds nothing in any module of rtl/, each read as a top of its own, with all
+    packages; what is waived stands with its reason in rtl/waivers.vlt."""
     sources = [name for name in tree.matching((".sv",)) if name.startswith("rtl/")]
     if not sources:
         return
@@ -160,8 +160,7 @@ def verilog(tree: Tree):
     command += [name for name in ("rtl/waivers.vlt",) if name in tree.files]
 
     def work(name: str):
-        files = packages if name in packages else [*packages, name]
-        result = _run([*command, *files], tree.root)
+        result = _run([*command, *packages, name], tree.root)
         if result.returncode == 0:
             return []
         lines = [line for line in result.stderr.splitlines()
@@ -170,4 +169,4 @@ def verilog(tree: Tree):
         return [Violation(match[1], int(match[2]), "verilog", match[3]) if match
                 else Violation(name, 0, "verilog", line) for line, match in matches]
 
-    yield from _all(work, sources)
+    yield from _all(work, [name for name in sources if name not in packages])

@@ -147,7 +147,7 @@ void LinkModel::transmit_write() {
   write_turn_ = false;
   write_tokens_ -= kLineCost;
   if (profile_.shared_bandwidth) read_tokens_ = write_tokens_;
-  Ack ack{now_ + write_latency_ + jitter(), order_++, write.id, kOkay};
+  Ack ack{now_ + write_latency_ + jitter(), write.id, kOkay};
   Visible visible{now_ + visible_after_, write.address, write.data, true, true};
   bool performed = memory_.line(write.address) != nullptr;
   bool acknowledged = true;
@@ -230,13 +230,8 @@ void LinkModel::accept_read(const AxiRequest& request) {
   read_out_[request.ar_id] = true;
   ++reads_out_;
   if (memory_.line(request.ar_address) == nullptr) ++counters_.stray_reads;
-  Read read{now_ + read_latency_ + jitter(),
-            order_++,
-            request.ar_id,
-            kOkay,
-            request.ar_address,
-            false,
-            false};
+  Read read{
+      now_ + read_latency_ + jitter(), request.ar_id, kOkay, request.ar_address, false, false};
   read.struck = strikes(FaultKind::corrupt_read, read_events_);
   if (strikes(FaultKind::late_read, read_events_)) read.ready_at += fault_.amount;
   if (strikes(FaultKind::error_read, read_events_)) read.resp = kSlaveError;

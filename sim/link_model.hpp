@@ -7,7 +7,7 @@
 #include <array>
 #include <cstdint>
 #include <deque>
-#include <queue>
+#include <iterator>
 #include <random>
 #include <string>
 #include <vector>
@@ -72,13 +72,10 @@ class LinkModel {
 
  private:
   struct Read {
-    std::uint64_t ready_at, order;
+    std::uint64_t ready_at;
     std::uint32_t id, resp;
     std::uint64_t address;
     bool struck, duplicate;
-    bool operator>(const Read& other) const {
-      return ready_at != other.ready_at ? ready_at > other.ready_at : order > other.order;
-    }
   };
   struct Write {
     std::uint32_t id;
@@ -92,14 +89,25 @@ class LinkModel {
     bool low_half, high_half;
   };
   struct Ack {
-    std::uint64_t ready_at, order;
+    std::uint64_t ready_at;
     std::uint32_t id, resp;
-    bool operator>(const Ack& other) const {
-      return ready_at != other.ready_at ? ready_at > other.ready_at : order > other.order;
-    }
   };
+  /// A queue that leaves in the order of `ready_at`, of equals the first pushed: nearly as pushed.
   template <class T>
-  using Soonest = std::priority_queue<T, std::vector<T>, std::greater<T>>;
+  class Soonest {
+   public:
+    [[nodiscard]] bool empty() const { return items_.empty(); }
+    [[nodiscard]] const T& top() const { return items_.front(); }
+    void pop() { items_.pop_front(); }
+    void push(const T& item) {
+      auto at = items_.end();
+      while (at != items_.begin() && std::prev(at)->ready_at > item.ready_at) --at;
+      items_.insert(at, item);
+    }
+
+   private:
+    std::deque<T> items_;
+  };
 
   void refill();
   void deliver_read();
@@ -123,7 +131,7 @@ class LinkModel {
   std::mt19937_64 random_;
   std::uint64_t read_latency_, write_latency_, visible_after_;
   std::uint64_t rate_, read_tokens_ = 0, write_tokens_ = 0;  // bytes * 1024 a cycle
-  std::uint64_t now_ = 0, order_ = 0;
+  std::uint64_t now_ = 0;
 
   Soonest<Read> reads_;
   Soonest<Ack> acks_;

@@ -137,10 +137,10 @@ std::optional<Error> Transaction::wait_for_id() {
 std::optional<Error> Transaction::wait_for_done() {
   Line status;
   const auto done = [&] {
-    const std::byte* const place = workspace_.at(c::vafu2_cntxt::kStatusOffset);
-    status = load_line(place);
-    return (status.words[0] & c::status::kDone) != 0 &&
-           status.get32(c::status::kSequence) == sequence_ && status.check_matches();
+    const Line line = load_line(workspace_.at(c::vafu2_cntxt::kStatusOffset));
+    if ((line.words[0] & c::status::kDone) == 0) return false;
+    status = line;
+    return line.get32(c::status::kSequence) == sequence_ && line.check_matches();
   };
   if (std::optional<Error> error = wait(done, "the AFU did not finish")) return error;
   if ((status.get32(c::status::kStatus) & c::status::kFailed) != 0) {

@@ -23,6 +23,8 @@ namespace {
 constexpr double kFramesPerSearch = 8;
 /// A margin beyond this part of the largest radius makes the list longer than it is worth.
 constexpr double kLargestMargin = 0.5;
+/// So does one that lists more pairs than these, as where all but a few bodies are small.
+constexpr std::uint64_t kListPerBody = 8, kListPerContact = 4;
 /// Part of half the margin that a body may use: the rest covers rounding.
 constexpr double kUsableMargin = 1 - 0x1p-8;
 /// Fewest bodies of a piece of work.
@@ -59,7 +61,8 @@ struct SceneOf<Real>::State {
   scene::Candidates nearby;
   std::uint64_t contact_count = 0;
   double margin = 0;
-  bool moved = true;    ///< since the last frame
+  double largest_margin = std::numeric_limits<double>::infinity();  ///< whose list was not too long
+  bool moved = true;                                                ///< since the last frame
   bool stale = true;    ///< `nearby` no longer fits the set of bodies or their rules
   unsigned frames = 0;  ///< seen with the bodies of `searched`; 0 where the set has changed
 
@@ -71,6 +74,7 @@ struct SceneOf<Real>::State {
     free_ids.clear();
     moved = stale = true;
     frames = 0;
+    largest_margin = std::numeric_limits<double>::infinity();
   }
 
   [[nodiscard]] bool has(std::uint32_t id) const noexcept { return id < taken.size() && taken[id]; }
@@ -197,7 +201,8 @@ void copy_rules(const Filters& f, State& state) {
   std::copy(f.rest.begin(), f.rest.end(), state.rest.begin());
 }
 
-/// One search: makes `nearby` from the bodies as they are.
+/// One search: makes `nearby` from the bodies as they are; without a margin where with the one
+/// asked for there were too many.
 template <class Real>
 class Searcher {
  public:
@@ -205,6 +210,23 @@ class Searcher {
       : state_(state), work_(state.workspace.state()), means_(state.means()) {}
 
   std::optional<Error> run() {
+    const std::uint64_t limit =
+        kListPerBody * state_.spheres.size() + kListPerContact * state_.contact_count;
+    if (auto error = run(state_.margin > 0 ? limit : kNoLimit)) return error;
+    if (work_.search.dropped() != 0) {
+      state_.largest_margin = state_.margin / 2;
+      state_.margin = 0;
+      return run(kNoLimit);
+    }
+    if (8 * state_.nearby.count < limit) state_.largest_margin *= 2;
+    return std::nullopt;
+  }
+
+ private:
+  static constexpr std::uint64_t kNoLimit = std::numeric_limits<std::uint64_t>::max();
+
+  std::optional<Error> run(std::uint64_t limit) {
+    work_.search.used = 0;
     state_.excluded.clear();
     state_.nearby.count = 0;
     if (state_.spheres.empty()) return std::nullopt;
@@ -216,19 +238,18 @@ class Searcher {
     std::erase_if(state_.excluded, [&](std::uint32_t id) { return !state_.taken[id]; });
     if (survey.census.bodies == 0) return std::nullopt;
     const scene::Plan plan = scene::make_plan(survey.census);
-    return plan.cull_double ? search<double>(source, survey, plan)
-                            : search<float>(source, survey, plan);
+    return plan.cull_double ? search<double>(source, survey, plan, limit)
+                            : search<float>(source, survey, plan, limit);
   }
 
- private:
   template <class Cull>
   std::optional<Error> search(const scene::Source<Real>& source, const scene::Survey<Real>& survey,
-                              const scene::Plan& plan) {
+                              const scene::Plan& plan, std::uint64_t limit) {
     scene::Ordered<Real, Cull> bodies;
     if (auto error = scene::order(means_, source, survey, plan, work_.order, bodies)) return error;
     const scene::PairFilter filter(state_.filters());
     const scene::SearchRule rule{scene::SearchRule::Kind::near_spheres};
-    if (auto error = scene::search(means_, bodies, rule, filter, 0, work_.search)) return error;
+    if (auto error = scene::search(means_, bodies, rule, filter, limit, work_.search)) return error;
     const std::span<const scene::TaskList> lists(work_.search.lists.data(), work_.search.used);
     return scene::ids_in_order(means_, bodies.ids, source.count, lists, state_.nearby_memory,
                                state_.nearby);
@@ -281,8 +302,8 @@ Result<double> largest_move(const StateOf<Real>& state) {
   return std::sqrt(static_cast<double>(*std::max_element(squares.begin(), squares.end())));
 }
 
-/// A margin for bodies that moved so far since the last search; 0 where a list is not worth its
-/// while.
+/// A margin for bodies that moved so far since the last search, which serves at least one more
+/// frame at the speed seen; 0 where there is none whose list is worth its while.
 template <class Real>
 double choose_margin(const StateOf<Real>& state, double moved) {
   if (state.frames < 2) return 0;
@@ -290,8 +311,10 @@ double choose_margin(const StateOf<Real>& state, double moved) {
   const scene::Source<Real> source = state.source();
   const double radius =
       std::max(0.0, static_cast<double>(kernels.extremes(source, 0, source.count).max[3]));
-  const double margin = 2 * kFramesPerSearch * moved / (state.frames - 1);
-  return margin <= kLargestMargin * radius ? std::max(margin, 0x1p-6 * radius) : 0;
+  const double speed = moved / (state.frames - 1);
+  const double largest = std::min(kLargestMargin * radius, state.largest_margin);
+  if (!(2 * speed <= largest * kUsableMargin)) return 0;
+  return std::min(std::max(2 * kFramesPerSearch * speed, 0x1p-6 * radius), largest);
 }
 
 /// Makes `nearby` anew if bodies that moved so far may be in contact without being in it. Returns

@@ -53,17 +53,13 @@ class Collector : public RoomMaker {
   }
 
  private:
-  [[nodiscard]] bool limited() const noexcept {
-    return common_.kind != SearchRule::Kind::near_spheres;
-  }
-
   /// In the middle of a block: filters, then looks whether the limit has been passed where there
   /// are so many, then grows.
   void make(Candidates& list) noexcept {
     settle(list, true);
     drop_filtered(list);
     if (list.count <= list.capacity / 2) return;
-    if (limited() && list.count > common_.limit_of_list) count_against_limit(list);
+    if (list.count > common_.limit_of_list) count_against_limit(list);
     if (list.count <= list.capacity / 2) return;
     if (!resize(2 * list.capacity)) {
       common_.out_of_memory = true;
@@ -191,8 +187,13 @@ std::optional<Error> search(const Means& means, const Ordered<Real, Cull>& bodie
       common.out_of_memory = true;
       return;
     }
+    const auto ended = [&] {
+      return common.out_of_memory.load(std::memory_order_relaxed) ||
+             (rule.kind == SearchRule::Kind::near_spheres &&
+              common.over_limit.load(std::memory_order_relaxed));
+    };
     const auto each = [&](std::size_t level, std::uint32_t begin, std::uint32_t end) {
-      if (!common.out_of_memory.load(std::memory_order_relaxed)) {
+      if (!ended()) {
         const SearchResult found = kernel(job, level, begin, end, task.list, collector);
         task.tests += found.tests;
         collector.settle(task.list, found.doubtful);
@@ -203,7 +204,6 @@ std::optional<Error> search(const Means& means, const Ordered<Real, Cull>& bodie
   });
   if (error) return error;
   if (common.out_of_memory) return Error{Errc::out_of_memory, "out of memory"};
-  if (rule.kind == SearchRule::Kind::near_spheres) return std::nullopt;
   std::uint64_t total = 0;
   for (std::size_t t = 0; t < tasks; ++t) {
     total += memory.lists[t].list.count + memory.lists[t].dropped;

@@ -49,12 +49,18 @@ struct TaskList {
 struct SearchMemory {
   std::vector<TaskList> lists;
   std::size_t used = 0;  ///< lists of the latest search
+
+  [[nodiscard]] std::uint64_t dropped() const noexcept {
+    std::uint64_t sum = 0;
+    for (std::size_t k = 0; k < used; ++k) sum += lists[k].dropped;
+    return sum;
+  }
 };
 
 /// What the ordered bodies are, and which pairs of them are asked for.
 struct SearchRule {
   enum class Kind : std::uint8_t {
-    near_spheres,      ///< those that culling finds, contacts among them; `limit` does not count
+    near_spheres,      ///< those that culling finds, contacts among them
     touching_spheres,  ///< contacts
     boxes,             ///< overlaps
   };
@@ -64,7 +70,8 @@ struct SearchRule {
 };
 
 /// Searches. When there are more than `limit` pairs, they are counted, not kept: then the sum of
-/// `dropped` over all lists is their exact number and all lists are empty.
+/// `dropped` over all lists is their exact number and all lists are empty. A search for near
+/// spheres ends there instead, and the sum is only beyond the limit.
 template <class Real, class Cull>
 std::optional<Error> search(const Means& means, const Ordered<Real, Cull>& bodies,
                             const SearchRule& rule, const PairFilter& filter, std::uint64_t limit,

@@ -67,6 +67,45 @@ TYPED_TEST(SceneTest, MovingWorldsEqualBruteForceInEveryFrame) {
   EXPECT_GT(reused, 200);
 }
 
+// At a tenth of the radius a frame, a list lasts two frames more: it is made, and it is exact.
+TYPED_TEST(SceneTest, FastBodiesHaveAListWhereItServesAFrame) {
+  using Real = TypeParam;
+  Dice dice(kSeed);
+  auto spheres = WorldMaker<Real>(kSeed + 6).make(World::packed, kMovingBodies);
+  auto scene = this->scene();
+  int reused = 0;
+  for (int frame = 0; frame < 30; ++frame) {
+    ASSERT_FALSE(scene.set_bodies(BodiesOf<Real>(this->view(spheres))));
+    const auto result = scene.detect();
+    ASSERT_TRUE(same_bits(this->copy(result), brute_force(this->view(spheres)))) << frame;
+    reused += result->searched ? 0 : 1;
+    this->shake(spheres, dice, 0.06);
+  }
+  EXPECT_GT(reused, 8);
+}
+
+// A margin for one huge body would list nearly all pairs of a crowd of small, fast ones.
+TYPED_TEST(SceneTest, AListThatIsTooLongIsGivenUp) {
+  using Real = TypeParam;
+  constexpr int kCrowd = 600;
+  Dice dice(kSeed);
+  std::vector<SphereOf<Real>> spheres(kCrowd, {0, 0, 0, Real(0.1)});
+  for (auto& s : spheres) {
+    s.x = static_cast<Real>(dice.uniform(-4, 4));
+    s.y = static_cast<Real>(dice.uniform(-4, 4));
+    s.z = static_cast<Real>(dice.uniform(-4, 4));
+  }
+  spheres[7] = {0, 0, 130, 100};
+  auto scene = this->scene();
+  for (int frame = 0; frame < 20; ++frame) {
+    ASSERT_FALSE(scene.set_bodies(BodiesOf<Real>(this->view(spheres))));
+    const auto result = scene.detect();
+    ASSERT_TRUE(same_bits(this->copy(result), brute_force(this->view(spheres)))) << frame;
+    EXPECT_TRUE(result->searched) << frame;
+    for (auto& s : spheres) s.x += static_cast<Real>(dice.uniform(-1, 1));
+  }
+}
+
 TYPED_TEST(SceneTest, RandomHistoriesEqualBruteForce) {
   using Real = TypeParam;
   int operations[6] = {};

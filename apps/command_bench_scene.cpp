@@ -63,9 +63,9 @@ std::string describe(const Terminal& terminal, const bench::SceneOutcome& outcom
   for (const bench::SceneRow& row : outcome.rows) {
     rows.push_back({row.engine, row.precision, fmt::format("{}", row.threads),
                     milliseconds(row.ms.median), milliseconds(row.ms.min),
-                    fmt::format("{:.3f}", row.update_ms), fmt::format("{:.3f}", row.broad_ms),
-                    fmt::format("{:.3f}", row.narrow_ms), fmt::format("{}", row.pairs),
-                    fmt::format("{}", row.contacts),
+                    milliseconds(row.ms.high), fmt::format("{:.3f}", row.update_ms),
+                    fmt::format("{:.3f}", row.broad_ms), fmt::format("{:.3f}", row.narrow_ms),
+                    fmt::format("{}", row.pairs), fmt::format("{}", row.contacts),
                     fmt::format("{:.2f}", static_cast<double>(row.bytes_floor) * 1e-6),
                     fmt::format("{:.{}f}", row.speedup, row.speedup < 0.01 ? 6 : 2)});
   }
@@ -75,6 +75,7 @@ std::string describe(const Terminal& terminal, const bench::SceneOutcome& outcom
                                    {"threads", true},
                                    {"ms/frame", true},
                                    {"min", true},
+                                   {"p90", true},
                                    {"update", true},
                                    {"broad", true},
                                    {"narrow", true},

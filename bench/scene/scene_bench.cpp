@@ -154,6 +154,7 @@ Json scene_results(const ScenePlan& plan, const SceneOutcome& outcome) {
                        {"precision", row.precision},
                        {"ms_per_frame", row.ms.median},
                        {"ms_min", row.ms.min},
+                       {"ms_p90", row.ms.high},
                        {"update_ms", row.update_ms},
                        {"broad_ms", row.broad_ms},
                        {"narrow_ms", row.narrow_ms},

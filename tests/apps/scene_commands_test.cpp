@@ -92,11 +92,13 @@ void expect_result(const Json& result, const std::string& kind, int bodies) {
   EXPECT_EQ(result.at("bodies"), bodies);
   EXPECT_GE(result.at("threads"), 1);
   EXPECT_TRUE(result.at("precision") == "f32" || result.at("precision") == "f64");
-  for (const char* field : {"ms_per_frame", "ms_min", "update_ms", "broad_ms", "narrow_ms"}) {
+  for (const char* field :
+       {"ms_per_frame", "ms_min", "ms_p90", "update_ms", "broad_ms", "narrow_ms"}) {
     EXPECT_TRUE(std::isfinite(result.at(field).get<double>())) << field;
     EXPECT_GE(result.at(field), 0) << field;
   }
   EXPECT_LE(result.at("ms_min"), result.at("ms_per_frame"));
+  EXPECT_LE(result.at("ms_per_frame"), result.at("ms_p90"));
   EXPECT_EQ(result.at("bytes_floor") == 0, result.at("engine") == "harpoon scene, still");
   if (result.at("engine") == "harpoon scene, set again") {
     EXPECT_EQ(result.at("bytes_floor"), bodies * 2 * 16);

@@ -25,6 +25,8 @@ constexpr double kFramesPerSearch = 8;
 constexpr double kLargestMargin = 0.5;
 /// So does one that lists more pairs than these, as where all but a few bodies are small.
 constexpr std::uint64_t kListPerBody = 8, kListPerContact = 4;
+/// How the largest margin grows in each frame without one, after a list that was too long.
+constexpr double kRetryGrowth = 1.0625;
 /// Part of half the margin that a body may use: the rest covers rounding.
 constexpr double kUsableMargin = 1 - 0x1p-8;
 /// Fewest bodies of a piece of work.
@@ -61,8 +63,9 @@ struct SceneOf<Real>::State {
   scene::Candidates nearby;
   std::uint64_t contact_count = 0;
   double margin = 0;
-  double largest_margin = std::numeric_limits<double>::infinity();  ///< whose list was not too long
-  bool moved = true;                                                ///< since the last frame
+  /// Whose list was not too long.
+  double largest_margin = std::numeric_limits<double>::infinity();
+  bool moved = true;    ///< since the last frame
   bool stale = true;    ///< `nearby` no longer fits the set of bodies or their rules
   unsigned frames = 0;  ///< seen with the bodies of `searched`; 0 where the set has changed
 
@@ -218,7 +221,10 @@ class Searcher {
       state_.margin = 0;
       return run(kNoLimit);
     }
-    if (8 * state_.nearby.count < limit) state_.largest_margin *= 2;
+    // A list grows at most with the cube of its reach. Without a list it is tried again at times.
+    if (8 * state_.nearby.count < limit) {
+      state_.largest_margin *= state_.margin > 0 ? 2 : kRetryGrowth;
+    }
     return std::nullopt;
   }
 

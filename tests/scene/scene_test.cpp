@@ -97,7 +97,7 @@ TYPED_TEST(SceneTest, AListThatIsTooLongIsGivenUp) {
   }
   spheres[7] = {0, 0, 130, 100};
   auto scene = this->scene();
-  for (int frame = 0; frame < 20; ++frame) {
+  for (int frame = 0; frame < 12; ++frame) {
     ASSERT_FALSE(scene.set_bodies(BodiesOf<Real>(this->view(spheres))));
     const auto result = scene.detect();
     ASSERT_TRUE(same_bits(this->copy(result), brute_force(this->view(spheres)))) << frame;

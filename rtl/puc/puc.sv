@@ -137,7 +137,8 @@ module puc #(
   logic         table_loading_q;
   assign lanes_valid = source_valid & indexed & ~table_loading_q;
 
-  // Their clock is gated in the other formats. The slice keeps the lines of those away from them.
+  // Their clock is gated in the other formats, but for the start, which clears an index error, and
+  // a reset, which the cull lanes see a cycle late. The slice keeps those formats' lines away.
   logic         lanes_clk, rst_nq, line_valid, line_ready, line_last;
   logic [511:0] line;
   logic [30:0]  line_number;

@@ -6,6 +6,7 @@
 ///
 /// Not part of harpoon.hpp; link to libharpoon_ode. It works beside the preload. `Real` is dReal.
 
+#include <cstdarg>
 #include <memory>
 #include <span>
 
@@ -22,6 +23,8 @@ namespace harpoon::ode {
 
 /// dNearCallback.
 using NearCallback = void(void* data, dxGeom* o1, dxGeom* o2);
+/// dMessageFunction.
+using MessageFunction = void(int number, const char* message, std::va_list arguments);
 
 /// dContactGeom, member by member.
 template <class Real>
@@ -63,10 +66,15 @@ struct LibodeOf {
   void (*capsule_get_params)(dxGeom*, Real*, Real*) = nullptr;
   void (*cylinder_get_params)(dxGeom*, Real*, Real*) = nullptr;
 
-  // Used once, to see whether Harpoon's contacts of spheres have the bits of this build of ODE.
+  // Used once, to see what this build of ODE does with geoms of Harpoon's own: the bits of its
+  // contacts of spheres, and whether it ends the process when a callback changes a geom.
+  dxSpace* (*simple_space_create)(dxSpace*) = nullptr;
   dxGeom* (*create_sphere)(dxSpace*, Real) = nullptr;
   void (*geom_set_position)(dxGeom*, Real, Real, Real) = nullptr;
+  void (*geom_set_category_bits)(dxGeom*, unsigned long) = nullptr;
   void (*geom_destroy)(dxGeom*) = nullptr;
+  MessageFunction* (*get_debug_handler)() = nullptr;
+  void (*set_debug_handler)(MessageFunction*) = nullptr;
 };
 
 #if defined(_ODE_COLLISION_H_)
@@ -96,9 +104,13 @@ inline LibodeOf<dReal> linked_libode() {
   ode.box_get_lengths = &dGeomBoxGetLengths;
   ode.capsule_get_params = &dGeomCapsuleGetParams;
   ode.cylinder_get_params = &dGeomCylinderGetParams;
+  ode.simple_space_create = &dSimpleSpaceCreate;
   ode.create_sphere = &dCreateSphere;
   ode.geom_set_position = &dGeomSetPosition;
+  ode.geom_set_category_bits = &dGeomSetCategoryBits;
   ode.geom_destroy = &dGeomDestroy;
+  ode.get_debug_handler = &dGetDebugHandler;
+  ode.set_debug_handler = &dSetDebugHandler;
   return ode;
 }
 #endif
@@ -112,8 +124,9 @@ struct ColliderOptions {
 
 /// Collides spaces as ODE does: the same pairs in the same order, the same contacts.
 ///
-/// Nothing tells it of changes, so every call reads all geoms of the space; ODE's own calls may be
-/// mixed with it at will. Sweep-and-prune spaces are Harpoon's only when `sap_created` was called;
+/// Nothing tells it of changes, so every call reads all geoms of the space, and callbacks must not
+/// change, enable or disable geoms that are being collided; ODE's own calls may be mixed with it at
+/// will. Sweep-and-prune spaces are Harpoon's only when `sap_created` was called;
 /// they and quadtrees are otherwise collided by ODE. Threads: as ODE, spaces of different threads
 /// at the same time.
 template <class Real>

@@ -5,11 +5,13 @@
 #include <algorithm>
 #include <chrono>
 #include <optional>
+#include <string_view>
 #include <unordered_map>
 #include <utility>
 
 #include "ode/float_mode.hpp"
 #include "ode/frame.hpp"
+#include "ode/handover.hpp"
 #include "ode/refresher.hpp"
 #include "ode/replay.hpp"
 #include "ode/scan.hpp"
@@ -18,6 +20,8 @@
 
 namespace harpoon::ode {
 namespace {
+
+constexpr std::string_view kOutOfMemory = "out of memory; the call is left to libode";
 
 /// A different address for each thread.
 const void* this_thread() {
@@ -62,11 +66,20 @@ struct Recorder {
   std::vector<GeomPair>& pairs;
   void* data;
   NearCallback* callback;
+  bool complete = true;
 
   static void near(void* recorder, dxGeom* o1, dxGeom* o2) {
     Recorder& self = *static_cast<Recorder*>(recorder);
-    self.pairs.push_back({o1, o2});
+    self.note({o1, o2});
     self.callback(self.data, o1, o2);
+  }
+
+  void note(GeomPair pair) noexcept {
+    try {
+      if (complete) pairs.push_back(pair);
+    } catch (const std::bad_alloc&) {
+      complete = false;
+    }
   }
 };
 
@@ -87,9 +100,10 @@ class EngineOf final : public Engine {
   void space_collide2(dxGeom* o1, dxGeom* o2, void* data, NearCallback* callback) override;
   int collide(dxGeom* o1, dxGeom* o2, int flags, void* contact, int skip) override;
 
+  void changing(dxGeom* geom, Change change) override;
   void moved(dxGeom* geom) override;
   void filters_changed(dxGeom* geom) override;
-  void toggled(dxGeom* geom, bool enabled) override;
+  void toggled(dxGeom* geom) override;
   void added(dxSpace* space) override;
   void removed(dxSpace* space, dxGeom* geom) override;
   void destroying(dxGeom* geom) override;
@@ -127,6 +141,8 @@ class EngineOf final : public Engine {
   Record* find_or_make(dxSpace* space, int kind);
   Record* put(dxSpace* space, std::shared_ptr<Record> record);
   void expect_frames();
+  [[nodiscard]] Record* record_to_collide(dxSpace* space, int kind);
+  [[nodiscard]] bool prepare(Record& record);
   void note_changes(Record& record) {
     count_look();
     refresher_.note_changes(record);
@@ -134,30 +150,43 @@ class EngineOf final : public Engine {
   void intern_recorded(Record& record) const;
   [[nodiscard]] bool answer_in_order(Record& record, void* data, NearCallback* callback);
   void record_or_replay(Record& record, void* data, NearCallback* callback);
-  void replay_record(Record& record, LiveCheck live, void* data, NearCallback* callback);
-  void verify_pairs(const Record& record);
-  [[nodiscard]] bool answer_scan(dxSpace* scanned, dxGeom* other, bool scanned_first, void* data,
-                                 NearCallback* callback);
-  [[nodiscard]] std::optional<std::vector<GeomPair>> scan(dxSpace* scanned, dxGeom* other,
-                                                          bool scanned_first);
-  void verify_scan(dxSpace* scanned, std::span<const GeomPair> pairs, const Rerun& rerun);
-  [[nodiscard]] bool answer_spaces(dxSpace* space1, dxSpace* space2, void* data,
+  [[nodiscard]] bool replay_recorded(Record& record, void* data, NearCallback* callback);
+  [[nodiscard]] bool replay_record(Record& record, LiveCheck live, void* data,
                                    NearCallback* callback);
-  [[nodiscard]] std::vector<dxGeom*> list_of(dxSpace* space) const;
+  [[nodiscard]] bool is_comparable(const Record& record) const;
+  template <class Replay>
+  [[nodiscard]] bool run(Frame<Real>& frame, const VerifiedCall<Real>* verified,
+                         Replayer<Real>& replayer, const Replay& replay);
+  /// A dSpaceCollide2: one geom against all of a space, or each geom of another space.
+  struct ScanCall {
+    dxGeom *o1, *o2;  ///< its arguments
+    dxSpace* scanned;
+    dxSpace* looped;  ///< null: `other` alone
+    dxGeom* other;
+    bool scanned_first;  ///< in callbacks
+
+    /// libode's own, for one geom of the looped space.
+    [[nodiscard]] Traversal<Real> of(const LibodeOf<Real>& ode, dxGeom* geom) const {
+      return scanned_first ? Traversal<Real>{&ode, as_geom(scanned), geom}
+                           : Traversal<Real>{&ode, geom, as_geom(scanned)};
+    }
+  };
+  [[nodiscard]] std::optional<ScanCall> scan_call(dxGeom* o1, dxGeom* o2) const;
+  [[nodiscard]] bool can_loop(dxSpace* space) const;
+  [[nodiscard]] bool scan(const ScanCall& call, dxGeom* probe, std::vector<GeomPair>& pairs);
+  [[nodiscard]] bool try_scan(const ScanCall& call, dxGeom* probe,
+                              std::vector<GeomPair>& pairs) noexcept;
+  [[nodiscard]] std::shared_ptr<Record> prepare_scan(const ScanCall& call, dxGeom* probe,
+                                                     std::vector<GeomPair>& pairs);
+  [[nodiscard]] bool answer_scan(const ScanCall& call, void* data, NearCallback* callback);
+  void loop(const ScanCall& call, dxGeom* first, Frame<Real>& frame, const Replayer<Real>& replayer,
+            std::vector<GeomPair>& pairs);
+  [[nodiscard]] Handover<Real> handover() {
+    return {ode_, parts_.log, statistics_, locks_are_checked_.load(std::memory_order_relaxed)};
+  }
   /// A quadtree's blocks are libode's secret.
   [[nodiscard]] bool can_scan(dxSpace* space) const {
     return kind_of(as_geom(space)) != geom_class::kQuadtreeSpace;
-  }
-  /// In all others libode's list is not the order that it gives geoms out in.
-  [[nodiscard]] bool can_list(dxSpace* space) const {
-    const int kind = kind_of(as_geom(space));
-    return kind == geom_class::kSimpleSpace || kind == geom_class::kHashSpace;
-  }
-  void stock_scan(dxSpace* scanned, dxGeom* other, bool scanned_first, void* data,
-                  NearCallback* callback) const {
-    dxGeom* const space = as_geom(scanned);
-    ode_.space_collide2(scanned_first ? space : other, scanned_first ? other : space, data,
-                        callback);
   }
   [[nodiscard]] bool spheres_are_ours();
   int answer_contact(Frame<Real>& frame, int flags, ContactGeomOf<Real>& contact, int skip);
@@ -166,7 +195,7 @@ class EngineOf final : public Engine {
     if (options_.statistics) Statistics::add(statistics_.left_to_stock, 1);
     ode_.space_collide(space, data, callback);
   }
-  void warn(const std::string& line) const {
+  void warn(std::string_view line) const {
     if (parts_.log) parts_.log(LogLevel::warning, line);
   }
 
@@ -176,6 +205,7 @@ class EngineOf final : public Engine {
   Statistics statistics_;
   SpaceTable<Record> table_;
   std::atomic<bool> expects_frames_{false};
+  std::atomic<bool> locks_are_checked_{false};
   std::atomic<std::uint64_t> looks_{1};  ///< how often what is known of spaces has been renewed
   UserTests user_tests_{};
   const Refresher<Real> refresher_{ode_, options_, user_tests_, parts_.log, statistics_};
@@ -234,72 +264,96 @@ SpaceRecord<Real>* EngineOf<Real>::put(dxSpace* space, std::shared_ptr<Record> r
   return table_.put(space, std::move(record));
 }
 
-/// To be called before a frame is opened.
+/// To be called before a frame is opened. Throws std::bad_alloc.
 template <class Real>
 void EngineOf<Real>::expect_frames() {
   if (expects_frames_.load(std::memory_order_acquire)) return;
+  if (options_.changes_are_reported) {
+    locks_are_checked_.store(checks_locks(ode_), std::memory_order_relaxed);
+  }
   if (parts_.before_first_frame) parts_.before_first_frame();
   expects_frames_.store(true, std::memory_order_release);
 }
 
+/// Where stock aborts or pairs were added to stock's there is nothing to compare with.
 template <class Real>
-void EngineOf<Real>::verify_pairs(const Record& record) {
-  // Where stock aborts or pairs were added to stock's there is nothing to compare with.
-  if (record.found.stock_aborts ||
-      (options_.policy == Policy::fixed && record.found.missed_by_stock != 0)) {
-    return;
-  }
-  std::vector<GeomPair> stock, ours;
-  ode_.space_collide(record.space, &stock, &note_pair);
-  const bool asks = (record.mirror.all_traits & kHasAabbTest) != 0;
-  const Replayer<Real> replayer{ode_, user_tests_, nullptr, nullptr};
-  for (const auto& pair : record.pairs) {
-    if (asks && !replayer.is_near(record, pair)) continue;
-    ours.push_back({record.mirror.geoms[pair.g1], record.mirror.geoms[pair.g2]});
-  }
-  Statistics::add(statistics_.verified_pairs, stock.size());
-  if (const auto difference = compare_pairs<Real>(ode_, record, ours, stock);
-      difference && parts_.differs) {
-    if (record.kind == geom_class::kQuadtreeSpace || !record.mirror_valid) {
-      parts_.differs(*difference, nullptr);
-      return;
-    }
-    CollisionFrame frame = frame_of<Real>(ode_, record, options_.policy, stock);
-    frame.difference = *difference;
-    parts_.differs(*difference, &frame);
-  }
+bool EngineOf<Real>::is_comparable(const Record& record) const {
+  return options_.verify && !record.found.stock_aborts &&
+         (options_.policy != Policy::fixed || record.found.missed_by_stock == 0);
 }
 
+/// Runs a replay, with stock's traversal beside it where there is something to verify. False before
+/// the first callback, when there is no memory for that.
 template <class Real>
-void EngineOf<Real>::replay_record(Record& record, LiveCheck live, void* data,
-                                   NearCallback* callback) {
-  const std::shared_ptr<Record> alive = table_.hold(record.space);
-  Statistics::add(statistics_.pairs, record.pairs.size());
-  record.contacts.rewind(record.was_unchanged);
-  expect_frames();
-  Frame<Real> frame(record.space);
-  frame.default_rules = computes_by_default_rules();
-  Replayer<Real>{ode_, user_tests_, data, callback}.replay(
-      frame, record, live,
-      [&](void* d, NearCallback* c) { ode_.space_collide(record.space, d, c); });
+template <class Replay>
+bool EngineOf<Real>::run(Frame<Real>& frame, const VerifiedCall<Real>* verified,
+                         Replayer<Real>& replayer, const Replay& replay) {
+  std::optional<Verifier<Real>> verifier;
+  if (verified != nullptr && parts_.differs) {
+    std::optional<WalkStack> stack = WalkStack::take();
+    if (!stack) return false;
+    verifier.emplace(ode_, *verified, frame.stock, *std::move(stack), parts_.differs);
+    replayer.verifier = &*verifier;
+  }
+  replay();
+  if (verifier) {
+    if (frame.stopped) verifier->abandon();
+    verifier->finish();
+    Statistics::add(statistics_.verified_pairs, verifier->compared());
+  }
   Statistics::add(statistics_.batch_contacts, frame.batch_contacts);
   Statistics::add(statistics_.stock_contacts, frame.stock_contacts);
+  return true;
+}
+
+/// False before the first callback, when the call is libode's after all.
+template <class Real>
+bool EngineOf<Real>::replay_record(Record& record, LiveCheck live, void* data,
+                                   NearCallback* callback) {
+  std::optional<WalkStack> stack = WalkStack::take();
+  if (!stack) return false;
+  record.contacts.rewind(record.was_unchanged);
+  Frame<Real> frame(record.space, live, {&ode_, as_geom(record.space)}, *std::move(stack));
+  frame.default_rules = computes_by_default_rules();
+  frame.origin = &record;
+  frame.reads_filters_only = record.kind == geom_class::kSapSpace;
+  const VerifiedCall<Real> verified{
+      "dSpaceCollide", record, options_.policy,
+      record.kind != geom_class::kQuadtreeSpace && record.mirror_valid};
+  Replayer<Real> replayer{ode_, user_tests_, data, callback};
+  Statistics::add(statistics_.pairs, record.pairs.size());
+  if (!run(frame, is_comparable(record) ? &verified : nullptr, replayer,
+           [&] { replayer.replay(frame, record); })) {
+    return false;
+  }
+  if (frame.course == Course::own) record.note_own_course();
+  return true;
+}
+
+/// Brings mirror and pairs up to date. False when the call is libode's.
+template <class Real>
+bool EngineOf<Real>::prepare(Record& record) {
+  note_changes(record);
+  if (!refresher_.refresh_pairs(record)) return false;
+  expect_frames();
+  return true;
 }
 
 /// Simple, hash and SAP. False when the call is libode's.
 template <class Real>
 bool EngineOf<Real>::answer_in_order(Record& record, void* data, NearCallback* callback) {
+  const std::shared_ptr<Record> alive = table_.hold(record.space);
   const Entry entry(record);
   if (!entry.entered()) return false;
+  // A stock SAP space does not know what it was not asked.
+  if (record.kind != geom_class::kSapSpace && record.leaves_call_to_stock()) return false;
   if (entry.alone()) {
-    note_changes(record);
     try {
-      if (!refresher_.refresh_pairs(record)) return false;
+      if (!prepare(record)) return false;
     } catch (const std::bad_alloc&) {
-      warn("out of memory; the call is left to libode");
+      warn(kOutOfMemory);
       return false;
     }
-    if (options_.verify) verify_pairs(record);
   } else if (record.changed.load(std::memory_order_relaxed) || !record.pairs_valid) {
     return false;
   }
@@ -307,8 +361,7 @@ bool EngineOf<Real>::answer_in_order(Record& record, void* data, NearCallback* c
   record.pairs_used = true;
   const LiveCheck live =
       record.kind == geom_class::kSimpleSpace ? LiveCheck::rows : LiveCheck::none;
-  replay_record(record, live, data, callback);
-  return true;
+  return replay_record(record, live, data, callback);
 }
 
 /// Gives the geoms of a recorded sequence places in a mirror, so that it can be replayed like one.
@@ -332,10 +385,30 @@ void EngineOf<Real>::intern_recorded(Record& record) const {
   record.pairs_valid = true;
 }
 
+/// Replays what was recorded of a space of which nothing has changed since. False when the call is
+/// libode's.
+template <class Real>
+bool EngineOf<Real>::replay_recorded(Record& record, void* data, NearCallback* callback) {
+  try {
+    if (record.recorded_valid && !record.pairs_valid) intern_recorded(record);
+    // What a user class answers may change without notice.
+    if (!record.recorded_valid || (record.mirror.all_traits & kHasAabbTest) != 0) return false;
+    expect_frames();
+  } catch (const std::bad_alloc&) {
+    record.mark_changed();
+    return false;
+  }
+  Statistics::add(statistics_.unchanged, 1);
+  const LiveCheck live =
+      record.kind == geom_class::kQuadtreeSpace ? LiveCheck::rows : LiveCheck::none;
+  return replay_record(record, live, data, callback);
+}
+
 /// Quadtree spaces and SAP spaces whose creation nobody saw: recorded when nothing has changed
 /// since the call before, replayed when nothing has since then.
 template <class Real>
 void EngineOf<Real>::record_or_replay(Record& record, void* data, NearCallback* callback) {
+  const std::shared_ptr<Record> alive = table_.hold(record.space);
   const Entry entry(record);
   if (!entry.entered() || !entry.alone()) {
     leave_to_stock(record.space, data, callback);
@@ -343,26 +416,35 @@ void EngineOf<Real>::record_or_replay(Record& record, void* data, NearCallback* 
   }
   note_changes(record);
   ++record.calls;
-  if (record.recorded_valid && !record.pairs_valid) intern_recorded(record);
-  // What a user class answers may change without notice.
-  if (record.recorded_valid && (record.mirror.all_traits & kHasAabbTest) == 0) {
-    Statistics::add(statistics_.unchanged, 1);
-    if (options_.verify) verify_pairs(record);
-    replay_record(record,
-                  record.kind == geom_class::kQuadtreeSpace ? LiveCheck::rows : LiveCheck::none,
-                  data, callback);
-    return;
-  }
+  if (replay_recorded(record, data, callback)) return;
   if (!record.was_unchanged) {
     leave_to_stock(record.space, data, callback);
     return;
   }
   Statistics::add(statistics_.recorded, 1);
   record.recorded.clear();
+  record.pairs_valid = false;
   Recorder recorder{record.recorded, data, callback};
   ode_.space_collide(record.space, &recorder, &Recorder::near);
-  record.recorded_valid = !record.changed.load(std::memory_order_relaxed);
+  record.recorded_valid = recorder.complete && !record.changed.load(std::memory_order_relaxed);
   Statistics::add(statistics_.pairs, record.recorded.size());
+}
+
+/// The record of a space whose dSpaceCollide is not libode's alone, or null.
+template <class Real>
+SpaceRecord<Real>* EngineOf<Real>::record_to_collide(dxSpace* space, int kind) {
+  const Record* const sap =
+      kind == geom_class::kSapSpace && !table_.empty() ? table_.find(space) : nullptr;
+  const bool is_ours = sap != nullptr && sap->sap.has_value() && sap->sap_is_ours;
+  if (!is_space_class(kind) || (!is_ours && ode_.space_get_num_geoms(space) < min_geoms(kind))) {
+    return nullptr;
+  }
+  try {
+    return find_or_make(space, kind);
+  } catch (const std::bad_alloc&) {
+    warn(kOutOfMemory);
+    return nullptr;
+  }
 }
 
 template <class Real>
@@ -373,15 +455,14 @@ void EngineOf<Real>::space_collide(dxSpace* space, void* data, NearCallback* cal
   }
   const Stopwatch stopwatch(options_.statistics, statistics_.inside_ns);
   const int kind = kind_of(as_geom(space));
-  Record* record = kind == geom_class::kSapSpace && !table_.empty() ? table_.find(space) : nullptr;
-  const bool follows_sap = record != nullptr && record->sap.has_value();
-  if (!is_space_class(kind) || ((!follows_sap || !record->sap_is_ours) &&
-                                ode_.space_get_num_geoms(space) < min_geoms(kind))) {
+  Record* const record = record_to_collide(space, kind);
+  if (record == nullptr) {
     leave_to_stock(space, data, callback);
     return;
   }
-  if (record == nullptr) record = find_or_make(space, kind);
-  if (kind == geom_class::kQuadtreeSpace || (kind == geom_class::kSapSpace && !follows_sap)) {
+  const bool is_recorded = kind == geom_class::kQuadtreeSpace ||
+                           (kind == geom_class::kSapSpace && !record->sap.has_value());
+  if (is_recorded) {
     record_or_replay(*record, data, callback);
   } else if (!answer_in_order(*record, data, callback)) {
     record->mark_changed();
@@ -389,117 +470,152 @@ void EngineOf<Real>::space_collide(dxSpace* space, void* data, NearCallback* cal
   }
 }
 
-/// One geom against a space. Nothing when the call is libode's.
+/// Finds the pairs of one geom and the space. False when they are libode's. Throws std::bad_alloc.
 template <class Real>
-std::optional<std::vector<GeomPair>> EngineOf<Real>::scan(dxSpace* scanned, dxGeom* other,
-                                                          bool scanned_first) {
-  const int kind = kind_of(as_geom(scanned)), other_kind = kind_of(other);
-  if (other_kind >= geom_class::kFirstUser &&
-      user_tests_[other_kind - geom_class::kFirstUser] != nullptr) {
-    return std::nullopt;
+bool EngineOf<Real>::scan(const ScanCall& call, dxGeom* probe, std::vector<GeomPair>& pairs) {
+  pairs.clear();
+  const int probe_kind = kind_of(probe);
+  if (probe_kind >= geom_class::kFirstUser &&
+      user_tests_[probe_kind - geom_class::kFirstUser] != nullptr) {
+    return false;
   }
-  Record& record = *find_or_make(scanned, kind);
+  Record& record = *find_or_make(call.scanned, kind_of(as_geom(call.scanned)));
   const Entry entry(record);
-  if (!entry.entered()) return std::nullopt;
+  if (!entry.entered()) return false;
   if (entry.alone()) {
     note_changes(record);
     refresher_.refresh_mirror(record, false);
   } else if (record.changed.load(std::memory_order_relaxed) || !record.mirror_valid) {
-    return std::nullopt;
-  }
-  if ((record.mirror.all_traits & kHasAabbTest) != 0) return std::nullopt;
-  std::vector<GeomPair> pairs;
-  append_scan(record.mirror, Probe<Real>(ode_, other), scanned_first, pairs);
-  return pairs;
-}
-
-/// Compares a scan with stock's.
-template <class Real>
-void EngineOf<Real>::verify_scan(dxSpace* scanned, std::span<const GeomPair> pairs,
-                                 const Rerun& rerun) {
-  std::vector<GeomPair> stock;
-  rerun(&stock, &note_pair);
-  Statistics::add(statistics_.verified_pairs, stock.size());
-  const std::shared_ptr<Record> record = table_.hold(scanned);
-  const auto difference = compare_pairs<Real>(ode_, *record, pairs, stock);
-  if (difference && parts_.differs) parts_.differs("dSpaceCollide2: " + *difference, nullptr);
-}
-
-template <class Real>
-bool EngineOf<Real>::answer_scan(dxSpace* scanned, dxGeom* other, bool scanned_first, void* data,
-                                 NearCallback* callback) {
-  const Rerun rerun = [&](void* d, NearCallback* c) {
-    stock_scan(scanned, other, scanned_first, d, c);
-  };
-  std::optional<std::vector<GeomPair>> pairs;
-  try {
-    pairs = scan(scanned, other, scanned_first);
-  } catch (const std::bad_alloc&) {
-    warn("out of memory; the call is left to libode");
-  }
-  if (!pairs) return false;
-  if (options_.verify) verify_scan(scanned, *pairs, rerun);
-  Statistics::add(statistics_.pairs, pairs->size());
-  if (pairs->empty()) return true;
-  expect_frames();
-  Frame<Real> frame(scanned);
-  Replayer<Real>{ode_, user_tests_, data, callback}.replay(
-      frame, *pairs, scanned_first ? LiveCheck::first : LiveCheck::second, rerun);
-  Statistics::add(statistics_.stock_contacts, frame.stock_contacts);
-  return true;
-}
-
-/// The geoms of a simple or hash space in the order in which libode walks over them.
-template <class Real>
-std::vector<dxGeom*> EngineOf<Real>::list_of(dxSpace* space) const {
-  std::vector<dxGeom*> geoms(static_cast<std::size_t>(ode_.space_get_num_geoms(space)));
-  for (std::size_t k = 0; k < geoms.size(); ++k) {
-    geoms[k] = ode_.space_get_geom(space, static_cast<int>(k));
-  }
-  return geoms;
-}
-
-/// libode's loop over the space that has fewer geoms, each of which is compared with the other
-/// space. The looped space is not locked meanwhile: where callbacks change its list, libode goes on
-/// behind the geom at hand, wherever that is then. False when the call is libode's.
-template <class Real>
-bool EngineOf<Real>::answer_spaces(dxSpace* space1, dxSpace* space2, void* data,
-                                   NearCallback* callback) {
-  const int count1 = ode_.space_get_num_geoms(space1), count2 = ode_.space_get_num_geoms(space2);
-  dxSpace* const looped = count1 < count2 ? space1 : space2;
-  dxSpace* const scanned = looped == space1 ? space2 : space1;
-  if (std::max(count1, count2) < options_.min_geoms_scan || !can_scan(scanned) ||
-      !can_list(looped)) {
     return false;
   }
-  const bool scanned_first = scanned == space1;
-  try {
-    std::vector<dxGeom*> geoms = list_of(looped);
-    // dSpaceCollide2 would not take a space for a geom where the call has to be left to it.
-    if (std::any_of(geoms.begin(), geoms.end(),
-                    [&](dxGeom* geom) { return is_space_class(kind_of(geom)); })) {
-      return false;
-    }
-    (void)find_or_make(looped, kind_of(as_geom(looped)));
-    const std::shared_ptr<Record> list = table_.hold(looped);
-    for (std::size_t k = 0; k < geoms.size();) {
-      dxGeom* const geom = geoms[k];
-      const std::uint64_t version = list->version.load(std::memory_order_relaxed);
-      count_look();
-      if (!answer_scan(scanned, geom, scanned_first, data, callback)) {
-        stock_scan(scanned, geom, scanned_first, data, callback);
-      }
-      ++k;
-      if (list->version.load(std::memory_order_relaxed) == version) continue;
-      if (table_.hold(looped) != list) break;
-      geoms = list_of(looped);
-      const auto at = std::find(geoms.begin(), geoms.end(), geom);
-      k = at == geoms.end() ? geoms.size() : static_cast<std::size_t>(at - geoms.begin()) + 1;
-    }
-  } catch (const std::bad_alloc&) {
-    if (parts_.log) parts_.log(LogLevel::error, "out of memory; pairs of two spaces are missing");
-  }
+  if ((record.mirror.all_traits & kHasAabbTest) != 0) return false;
+  append_scan(record.mirror, Probe<Real>(ode_, probe), call.scanned_first, pairs);
   return true;
+}
+
+/// The same; false for want of memory, too.
+template <class Real>
+bool EngineOf<Real>::try_scan(const ScanCall& call, dxGeom* probe,
+                              std::vector<GeomPair>& pairs) noexcept {
+  try {
+    return scan(call, probe, pairs);
+  } catch (const std::bad_alloc&) {
+    return false;
+  }
+}
+
+/// Before the first callback of a dSpaceCollide2: the record of the space that is scanned, and the
+/// pairs of the first geom. Null when the call is libode's.
+template <class Real>
+std::shared_ptr<SpaceRecord<Real>> EngineOf<Real>::prepare_scan(const ScanCall& call, dxGeom* probe,
+                                                                std::vector<GeomPair>& pairs) {
+  try {
+    if (find_or_make(call.scanned, kind_of(as_geom(call.scanned)))->leaves_call_to_stock()) {
+      return nullptr;
+    }
+    if (call.looped != nullptr) (void)find_or_make(call.looped, kind_of(as_geom(call.looped)));
+    if (!scan(call, probe, pairs)) return nullptr;
+    expect_frames();
+    return table_.hold(call.scanned);
+  } catch (const std::bad_alloc&) {
+    warn(kOutOfMemory);
+    return nullptr;
+  }
+}
+
+/// False before the first callback, when the call is libode's.
+template <class Real>
+bool EngineOf<Real>::answer_scan(const ScanCall& call, void* data, NearCallback* callback) {
+  dxGeom* const first = call.looped == nullptr ? call.other : ode_.space_get_geom(call.looped, 0);
+  std::vector<GeomPair> pairs;
+  const std::shared_ptr<Record> record = prepare_scan(call, first, pairs);
+  if (record == nullptr) return false;
+  const bool verifies = options_.verify && parts_.differs;
+  if (pairs.empty() && call.looped == nullptr && !verifies) return true;
+  std::optional<WalkStack> stack = WalkStack::take();
+  if (!stack) return false;
+  Frame<Real> frame(call.scanned, call.scanned_first ? LiveCheck::first : LiveCheck::second,
+                    {&ode_, call.o1, call.o2}, *std::move(stack));
+  frame.looped = call.looped;
+  frame.origin = record.get();
+  const VerifiedCall<Real> verified{"dSpaceCollide2", *record, options_.policy, false};
+  Replayer<Real> replayer{ode_, user_tests_, data, callback};
+  if (!run(frame, verifies ? &verified : nullptr, replayer,
+           [&] { loop(call, first, frame, replayer, pairs); })) {
+    return false;
+  }
+  if (frame.course == Course::own) record->note_own_course();
+  return true;
+}
+
+/// One geom after the other against the space: those of `call.looped` in libode's order, or the
+/// first alone. A change of the looped space's list is handed over before it is made.
+template <class Real>
+void EngineOf<Real>::loop(const ScanCall& call, dxGeom* first, Frame<Real>& frame,
+                          const Replayer<Real>& replayer, std::vector<GeomPair>& pairs) {
+  frame.probe = first;
+  for (int k = 0;;) {
+    Statistics::add(statistics_.pairs, pairs.size());
+    frame.scanned = pairs;
+    replayer.replay(frame);
+    if (frame.stopped || frame.course == Course::stock || call.looped == nullptr) return;
+    // The next has come to the place of one that is gone.
+    if (frame.probe != nullptr) ++k;
+    if (k >= ode_.space_get_num_geoms(call.looped)) return;
+    frame.probe = ode_.space_get_geom(call.looped, k);
+    if (try_scan(call, frame.probe, pairs)) continue;
+    pairs.clear();
+    handover().all_that_follows(frame);
+    if (frame.course != Course::stock) call.of(ode_, frame.probe)(replayer.data, replayer.callback);
+  }
+}
+
+/// Whether libode's loop over a space can be made here, geom by geom. dSpaceCollide2 would not take
+/// a space for a geom where the call has to be left to it.
+template <class Real>
+bool EngineOf<Real>::can_loop(dxSpace* space) const {
+  const int kind = kind_of(as_geom(space));
+  if (kind != geom_class::kSimpleSpace && kind != geom_class::kHashSpace) return false;
+  const int count = ode_.space_get_num_geoms(space);
+  for (int k = 0; k < count; ++k) {
+    if (is_space_class(kind_of(ode_.space_get_geom(space, k)))) return false;
+  }
+  return count > 0;
+}
+
+/// What dSpaceCollide2 makes of its arguments, neither of which is null. Nothing where the call is
+/// libode's.
+template <class Real>
+std::optional<typename EngineOf<Real>::ScanCall> EngineOf<Real>::scan_call(dxGeom* o1,
+                                                                           dxGeom* o2) const {
+  dxSpace* space1 = is_space_class(kind_of(o1)) ? as_space(o1) : nullptr;
+  dxSpace* space2 = is_space_class(kind_of(o2)) ? as_space(o2) : nullptr;
+  if (space1 != nullptr && space2 != nullptr) {
+    const int level1 = ode_.space_get_sublevel(space1), level2 = ode_.space_get_sublevel(space2);
+    if (level1 > level2) space2 = nullptr;
+    if (level1 < level2) space1 = nullptr;
+  }
+  ScanCall call{o1, o2, nullptr, nullptr, nullptr, true};
+  int most = 0;
+  if (space1 != nullptr && space2 != nullptr) {
+    // libode's loop over the space that has fewer geoms, each of which is compared with the other
+    // space. The looped space is not locked meanwhile.
+    const int count1 = ode_.space_get_num_geoms(space1), count2 = ode_.space_get_num_geoms(space2);
+    call.looped = count1 < count2 ? space1 : space2;
+    call.scanned = call.looped == space1 ? space2 : space1;
+    call.scanned_first = call.scanned == space1;
+    most = std::max(count1, count2);
+    if (most >= options_.min_geoms_scan && !can_loop(call.looped)) return std::nullopt;
+  } else if (space1 != nullptr || space2 != nullptr) {
+    call.scanned_first = space1 != nullptr;
+    call.scanned = call.scanned_first ? space1 : space2;
+    call.other = call.scanned_first ? o2 : o1;
+    most = ode_.space_get_num_geoms(call.scanned);
+  } else {
+    return std::nullopt;
+  }
+  if (most < options_.min_geoms_scan || !can_scan(call.scanned)) return std::nullopt;
+  return call;
 }
 
 template <class Real>
@@ -508,28 +624,14 @@ void EngineOf<Real>::space_collide2(dxGeom* o1, dxGeom* o2, void* data, NearCall
     ode_.space_collide2(o1, o2, data, callback);
     return;
   }
-  const Stopwatch stopwatch(options_.statistics, statistics_.inside_ns);
-  dxSpace* space1 = is_space_class(kind_of(o1)) ? as_space(o1) : nullptr;
-  dxSpace* space2 = is_space_class(kind_of(o2)) ? as_space(o2) : nullptr;
-  if (space1 != nullptr && space1 == space2) {
-    space_collide(space1, data, callback);
+  if (o1 == o2 && is_space_class(kind_of(o1))) {
+    space_collide(as_space(o1), data, callback);
     return;
   }
-  const bool are_spaces = space1 != nullptr && space2 != nullptr;
-  if (are_spaces) {
-    const int level1 = ode_.space_get_sublevel(space1), level2 = ode_.space_get_sublevel(space2);
-    if (level1 > level2) space2 = nullptr;
-    if (level1 < level2) space1 = nullptr;
-  }
-  bool answered = false;
-  if (space1 != nullptr && space2 != nullptr) {
-    answered = answer_spaces(space1, space2, data, callback);
-    if (answered) Statistics::add(statistics_.scanned_spaces, 1);
-  } else if (dxSpace* const scanned = space1 != nullptr ? space1 : space2;
-             scanned != nullptr && ode_.space_get_num_geoms(scanned) >= options_.min_geoms_scan &&
-             can_scan(scanned)) {
-    answered = answer_scan(scanned, space1 != nullptr ? o2 : o1, space1 != nullptr, data, callback);
-  }
+  const Stopwatch stopwatch(options_.statistics, statistics_.inside_ns);
+  const std::optional<ScanCall> call = scan_call(o1, o2);
+  const bool answered = call && answer_scan(*call, data, callback);
+  if (answered && call->looped != nullptr) Statistics::add(statistics_.scanned_spaces, 1);
   Statistics::add(answered ? statistics_.scanned : statistics_.left_to_stock, 1);
   if (!answered) ode_.space_collide2(o1, o2, data, callback);
 }
@@ -562,8 +664,14 @@ int EngineOf<Real>::answer_contact(Frame<Real>& frame, int flags, ContactGeomOf<
   }
   SphereContacts<Real>& contacts = record.contacts;
   if (!contacts.has(frame.number)) {
-    if (!record.mirror.are_spheres(record.pairs[frame.number]) || !spheres_are_ours()) return -1;
-    contacts.load(source_, record.mirror, record.pairs, frame.number);
+    if (!record.mirror.are_spheres(record.pairs[frame.number])) return -1;
+    try {
+      if (!spheres_are_ours()) return -1;
+      contacts.load(source_, record.mirror, record.pairs, frame.number);
+    } catch (const std::bad_alloc&) {
+      contacts.reset();
+      return -1;
+    }
   }
   using Answer = typename SphereContacts<Real>::Answer;
   const Answer answer = contacts.find(record.mirror, record.pairs, frame.number);
@@ -618,6 +726,12 @@ void EngineOf<Real>::moved(dxGeom* geom) {
 }
 
 template <class Real>
+void EngineOf<Real>::changing(dxGeom* geom, Change change) {
+  if (open_frames == 0 || geom == nullptr) return;
+  handover().before(geom, change);
+}
+
+template <class Real>
 void EngineOf<Real>::note_move(dxGeom* geom, dxSpace* home) {
   const std::uint64_t looks = looks_.load(std::memory_order_relaxed);
   bool is_settled = open_frames == 0;
@@ -640,16 +754,14 @@ void EngineOf<Real>::filters_changed(dxGeom* geom) {
 }
 
 template <class Real>
-void EngineOf<Real>::toggled(dxGeom* geom, bool enabled) {
+void EngineOf<Real>::toggled(dxGeom* geom) {
   dxSpace* const space = ode_.geom_get_space(geom);
   if (space == nullptr) return;
   if (!table_.empty()) {
     if (Record* record = table_.find(space)) record->mark_changed();
   }
   for (Frame<Real>* frame = Frame<Real>::current(); frame != nullptr; frame = frame->outer) {
-    if (frame->space != space) continue;
-    frame->disturbed = frame->toggled = true;
-    frame->awakened = frame->awakened || enabled;
+    if (frame->space == space) frame->disturbed = frame->toggled = true;
   }
 }
 
@@ -659,29 +771,31 @@ void EngineOf<Real>::added(dxSpace* space) {
   if (Record* record = table_.find(space)) record->mark_changed_with_contacts();
 }
 
+/// libode's traversals of other builds go on with a geom that has been removed, or end: there the
+/// call was handed over. Where locks are checked nothing is known of what they would do.
 template <class Real>
 void EngineOf<Real>::removed(dxSpace* space, dxGeom* geom) {
   added(space);
+  if (!locks_are_checked_.load(std::memory_order_relaxed)) return;
   for (Frame<Real>* frame = Frame<Real>::current(); frame != nullptr; frame = frame->outer) {
-    if (frame->space != space) continue;
-    frame->disturbed = true;
-    frame->gone.push_back(geom);
+    if (frame->space == space) frame->forget(geom);
   }
 }
 
 template <class Real>
 void EngineOf<Real>::destroying(dxGeom* geom) {
   if (geom == nullptr) return;
+  // Nothing is known of what libode does when the geom at hand of such a loop is destroyed.
+  if (dxSpace* const home = ode_.geom_get_space(geom); open_frames != 0 && home != nullptr) {
+    handover().before_loss(home, geom);
+  }
   for (Frame<Real>* frame = Frame<Real>::current(); frame != nullptr; frame = frame->outer) {
-    const bool is_space = as_geom(frame->space) == geom;
-    // All geoms of a record's pairs are in its space; those of dSpaceCollide2 may be anywhere.
-    if (frame->record != nullptr && !is_space && ode_.geom_get_space(geom) != frame->space)
-      continue;
-    frame->disturbed = true;
-    frame->gone.push_back(geom);
-    if (is_space) {
-      frame->stopped = true;
+    if (as_geom(frame->space) == geom || as_geom(frame->looped) == geom) {
+      frame->disturbed = frame->stopped = true;
       frame->record = nullptr;
+    } else if (geom == frame->probe || ode_.geom_get_space(geom) == frame->space) {
+      frame->forget(geom);
+      if (geom == frame->probe) frame->probe = nullptr;
     }
   }
   if (!table_.empty() && is_space_class(kind_of(geom))) table_.erase(as_space(geom));

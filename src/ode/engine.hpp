@@ -16,6 +16,8 @@
 #include "ode/libode.hpp"
 #include "ode/options.hpp"
 #include "ode/statistics.hpp"
+#include "ode/types.hpp"
+#include "ode/verify.hpp"
 
 namespace harpoon::ode {
 
@@ -28,12 +30,15 @@ class Engine {
   virtual void space_collide2(dxGeom* o1, dxGeom* o2, void* data, NearCallback* callback) = 0;
   virtual int collide(dxGeom* o1, dxGeom* o2, int flags, void* contact, int skip) = 0;
 
+  /// Before a change of a geom, or of a space's members: libode's traversals read some of it while
+  /// they walk. Needed only while callbacks are running (`open_frames`). Null is nobody.
+  virtual void changing(dxGeom* geom, Change change) = 0;
   /// dGeomMoved: a geom's bounds or pose. Not null.
   virtual void moved(dxGeom* geom) = 0;
   /// Body, category or collide bits.
   virtual void filters_changed(dxGeom* geom) = 0;
   /// dGeomEnable and dGeomDisable, where the flag has changed.
-  virtual void toggled(dxGeom* geom, bool enabled) = 0;
+  virtual void toggled(dxGeom* geom) = 0;
   virtual void added(dxSpace* space) = 0;
   virtual void removed(dxSpace* space, dxGeom* geom) = 0;
   /// Before dGeomDestroy.
@@ -60,7 +65,7 @@ struct EngineParts {
   LogCallback log;                 ///< may be empty
   /// Under `Options::verify`: called with the first difference; should not return. The frame is
   /// that of the callback sequence, null for a contact or a quadtree.
-  std::function<void(const std::string& difference, const CollisionFrame* frame)> differs;
+  Differs differs;
   /// Called before a space becomes known to an engine that knows none: until then it need not hear
   /// of any `moved`. May be empty.
   std::function<void()> before_first_space = {};

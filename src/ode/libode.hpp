@@ -44,9 +44,13 @@ template <class Real, class Find>
   take("dGeomBoxGetLengths", ode.box_get_lengths);
   take("dGeomCapsuleGetParams", ode.capsule_get_params);
   take("dGeomCylinderGetParams", ode.cylinder_get_params);
+  take("dSimpleSpaceCreate", ode.simple_space_create);
   take("dCreateSphere", ode.create_sphere);
   take("dGeomSetPosition", ode.geom_set_position);
+  take("dGeomSetCategoryBits", ode.geom_set_category_bits);
   take("dGeomDestroy", ode.geom_destroy);
+  take("dGetDebugHandler", ode.get_debug_handler);
+  take("dSetDebugHandler", ode.set_debug_handler);
   return complete;
 }
 

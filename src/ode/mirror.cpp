@@ -43,12 +43,6 @@ std::uint8_t traits_of(const BoundsBox<Real>& box) {
   return traits;
 }
 
-/// Whether libode's walks do not pass the geom over.
-template <class Real>
-bool takes_part(const LibodeOf<Real>& ode, dxGeom* geom) {
-  return ode.geom_is_enabled(geom) != 0 && !is_zero_sized(ode, geom, ode.geom_get_class(geom));
-}
-
 /// A set of a few geoms, asked about many: mostly one bit answers.
 class KnownGeoms {
  public:
@@ -76,6 +70,19 @@ bool asks(int number, const UserTests& tests) {
 }
 
 }  // namespace
+
+template <class Real>
+bool takes_part(const LibodeOf<Real>& ode, dxGeom* geom) {
+  return ode.geom_is_enabled(geom) != 0 && !is_zero_sized(ode, geom, ode.geom_get_class(geom));
+}
+
+template <class Real>
+void Mirror<Real>::drop_filters() {
+  bodies.assign(size(), nullptr);
+  category.assign(size(), ~0UL);
+  collide.assign(size(), ~0UL);
+  uniform_bits = true;
+}
 
 template <class Real>
 void Mirror<Real>::clear() {
@@ -297,6 +304,8 @@ const PackedBounds<Real>* Mirror<Real>::packed_if_asked_again() {
   return nullptr;
 }
 
+template bool takes_part(const LibodeOf<float>&, dxGeom*);
+template bool takes_part(const LibodeOf<double>&, dxGeom*);
 template class Mirror<float>;
 template class Mirror<double>;
 

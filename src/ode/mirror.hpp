@@ -5,6 +5,7 @@
 // brought up to date when a few geoms moved; it never changes libode's state beyond what
 // dSpaceClean does.
 
+#include <algorithm>
 #include <cstdint>
 #include <span>
 #include <vector>
@@ -32,6 +33,10 @@ inline constexpr std::uint8_t kHasAabbTest = 8;
 /// Which of the user classes ask (`dGeomClass::aabb_test`); null where one does not.
 using UserTests = AabbTest * [geom_class::kUserClasses];
 
+/// Whether libode's walks do not pass the geom over: it is enabled and has a size.
+template <class Real>
+[[nodiscard]] bool takes_part(const LibodeOf<Real>& ode, dxGeom* geom);
+
 template <class Real>
 class Mirror {
  public:
@@ -54,6 +59,13 @@ class Mirror {
                                             std::span<dxGeom* const> moved, const UserTests& tests,
                                             SlotChange& change);
   void clear();
+  /// A geom is gone: its place holds null until the next reading.
+  void forget(const dxGeom* geom) {
+    std::replace(geoms.begin(), geoms.end(), const_cast<dxGeom*>(geom),
+                 static_cast<dxGeom*>(nullptr));
+  }
+  /// Lets every pair pass libode's filters. Throws std::bad_alloc.
+  void drop_filters();
   /// Adds a geom with what a replay of known pairs needs only: identity, sphere, whether it asks.
   void append_for_contacts(const LibodeOf<Real>& ode, dxGeom* geom, const UserTests& tests);
 

@@ -17,6 +17,7 @@ HARPOON_API void dGeomMoved(dxGeom* geom);
 namespace {
 
 using harpoon::ode::AabbTest;
+using harpoon::ode::Change;
 using harpoon::ode::drop_in;
 using harpoon::ode::drop_in_if_made;
 using harpoon::ode::Engine;
@@ -59,6 +60,12 @@ void find_and_move(dxGeom* geom) {
   dGeomMoved(geom);
 }
 
+/// To be called before libode makes a change.
+void changing(dxGeom* geom, Change change) {
+  if (harpoon::ode::open_frames != 0) [[unlikely]]
+    drop_in_if_made()->changing(geom, change);
+}
+
 int watch_collide(dxGeom* o1, dxGeom* o2, int flags, void* contact, int skip) {
   if (harpoon::ode::open_frames == 0) [[likely]] {
     return stock_collide.load(std::memory_order_relaxed)(o1, o2, flags, contact, skip);
@@ -67,6 +74,7 @@ int watch_collide(dxGeom* o1, dxGeom* o2, int flags, void* contact, int skip) {
 }
 
 void watch_move(dxGeom* geom) {
+  changing(geom, Change::moved);
   stock_geom_moved.load(std::memory_order_relaxed)(geom);
   if (geom != nullptr) drop_in_if_made()->moved(geom);
 }
@@ -80,8 +88,9 @@ void set_enabled(dxGeom* geom, bool enabled, void (*set)(dxGeom*)) {
   Engine* const engine = drop_in_if_made();
   const bool changes =
       engine != nullptr && geom != nullptr && (libode().geom_is_enabled(geom) != 0) != enabled;
+  if (changes && enabled) changing(geom, Change::enabled);
   set(geom);
-  if (changes) engine->toggled(geom, enabled);
+  if (changes) engine->toggled(geom);
 }
 
 }  // namespace
@@ -128,16 +137,19 @@ HARPOON_API void dGeomDestroy(dxGeom* geom) {
 }
 
 HARPOON_API void dGeomSetBody(dxGeom* geom, dxBody* body) {
+  changing(geom, Change::filter);
   libode().geom_set_body(geom, body);
   if (Engine* const engine = drop_in_if_made()) engine->filters_changed(geom);
 }
 
 HARPOON_API void dGeomSetCategoryBits(dxGeom* geom, unsigned long bits) {
+  changing(geom, Change::filter);
   libode().geom_set_category_bits(geom, bits);
   if (Engine* const engine = drop_in_if_made()) engine->filters_changed(geom);
 }
 
 HARPOON_API void dGeomSetCollideBits(dxGeom* geom, unsigned long bits) {
+  changing(geom, Change::filter);
   libode().geom_set_collide_bits(geom, bits);
   if (Engine* const engine = drop_in_if_made()) engine->filters_changed(geom);
 }
@@ -151,11 +163,13 @@ HARPOON_API void dGeomDisable(dxGeom* geom) {
 }
 
 HARPOON_API void dSpaceAdd(dxSpace* space, dxGeom* geom) {
+  changing(harpoon::ode::as_geom(space), Change::members);
   libode().space_add(space, geom);
   if (Engine* const engine = drop_in_if_made()) engine->added(space);
 }
 
 HARPOON_API void dSpaceRemove(dxSpace* space, dxGeom* geom) {
+  changing(harpoon::ode::as_geom(space), Change::members);
   libode().space_remove(space, geom);
   if (Engine* const engine = drop_in_if_made()) engine->removed(space, geom);
 }

@@ -10,26 +10,36 @@ constexpr std::size_t kPrefetchDistance = 6;
 
 }  // namespace
 
-void note_pair(void* data, dxGeom* o1, dxGeom* o2) {
-  static_cast<std::vector<GeomPair>*>(data)->push_back({o1, o2});
+template <class Real>
+void Replayer<Real>::deliver(Frame<Real>& frame, GeomPair pair) const {
+  if (verifier != nullptr) [[unlikely]]
+    verifier->expect(pair);
+  frame.o1 = pair.o1;
+  frame.o2 = pair.o2;
+  frame.has_begun = true;
+  callback(data, pair.o1, pair.o2);
 }
 
 /// Whether libode would still report the pair after what callbacks did. Only asked when they did
-/// something. `frame.o1` is that of the pair before: where it changes a row begins.
+/// something.
 template <class Real>
-bool Replayer<Real>::is_due(Frame<Real>& frame, GeomPair pair, LiveCheck live) const {
-  if (frame.is_gone(pair.o1) || frame.is_gone(pair.o2)) return false;
+bool Replayer<Real>::is_due(Frame<Real>& frame, GeomPair pair) const {
+  if (pair.o1 == nullptr || pair.o2 == nullptr) return false;
   if (!frame.toggled) return true;
-  switch (live) {
+  switch (frame.live) {
     case LiveCheck::none:
       return true;
     case LiveCheck::first:
-      return ode.geom_is_enabled(pair.o1) != 0;
+      return takes_part(ode, pair.o1);
     case LiveCheck::second:
-      return ode.geom_is_enabled(pair.o2) != 0;
+      return takes_part(ode, pair.o2);
     case LiveCheck::rows:
-      if (pair.o1 != frame.o1) frame.row_is_enabled = ode.geom_is_enabled(pair.o1) != 0;
-      return frame.row_is_enabled && ode.geom_is_enabled(pair.o2) != 0;
+      // A row that had begun when the first geom was toggled goes on.
+      if (pair.o1 != (frame.row != nullptr ? frame.row : frame.o1)) {
+        frame.row_is_enabled = takes_part(ode, pair.o1);
+      }
+      frame.row = pair.o1;
+      return frame.row_is_enabled && takes_part(ode, pair.o2);
   }
   return true;
 }
@@ -47,82 +57,99 @@ bool Replayer<Real>::is_near(const SpaceRecord<Real>& record, IndexPair pair) co
   return !says_no(pair.g1, pair.g2) && !says_no(pair.g2, pair.g1);
 }
 
-/// A geom was enabled that libode's walk may yet come to. Walks once more, with the pair of this
-/// moment enabled so that it is found, and goes on behind it. False when it is not found.
+/// Deals with all further pairs, where they do not come from the sequence of the call's start.
 template <class Real>
-bool Replayer<Real>::resume(Frame<Real>& frame, LiveCheck live, const Rerun& rerun) const {
-  frame.awakened = false;
-  const GeomPair last{frame.o1, frame.o2};
-  if (frame.is_gone(last.o1) || frame.is_gone(last.o2)) return false;
-  std::vector<GeomPair> pairs;
-  bool was_enabled[2];
-  dxGeom* const geoms[2] = {last.o1, last.o2};
-  for (int side = 0; side < 2; ++side) {
-    was_enabled[side] = ode.geom_is_enabled(geoms[side]) != 0;
-    ode.geom_enable(geoms[side]);
+bool Replayer<Real>::goes_on_otherwise(Frame<Real>& frame) const {
+  if (frame.stopped) return true;
+  if (frame.course == Course::stock) {
+    follow_walk(frame);
+    return true;
   }
-  rerun(&pairs, &note_pair);
-  for (int side = 0; side < 2; ++side) {
-    if (!was_enabled[side]) ode.geom_disable(geoms[side]);
+  if (frame.course == Course::filtered) {
+    filter_rest(frame);
+    return true;
   }
-  const auto found = std::find(pairs.begin(), pairs.end(), last);
-  if (found == pairs.end()) return false;
-  frame.record = nullptr;
-  replay(frame, std::span(found + 1, pairs.end()), live, rerun);
-  return true;
+  return false;
 }
 
 template <class Real>
-void Replayer<Real>::replay(Frame<Real>& frame, SpaceRecord<Real>& record, LiveCheck live,
-                            const Rerun& rerun) const {
+void Replayer<Real>::follow_walk(Frame<Real>& frame) const {
+  GeomPair pair;
+  while (frame.walk->next(pair)) {
+    deliver(frame, pair);
+    if (frame.stopped) {
+      frame.walk->abandon();
+      return;
+    }
+  }
+}
+
+template <class Real>
+void Replayer<Real>::filter_rest(Frame<Real>& frame) const {
+  const SpaceRecord<Real>& record = *frame.record;
+  for (const IndexPair pair : frame.rest) {
+    dxGeom* const o1 = record.mirror.geoms[pair.g1];
+    dxGeom* const o2 = record.mirror.geoms[pair.g2];
+    if (o1 == nullptr || o2 == nullptr) continue;
+    if (dxBody* const body = ode.geom_get_body(o1);
+        body != nullptr && body == ode.geom_get_body(o2)) {
+      continue;
+    }
+    if (((ode.geom_get_category_bits(o1) & ode.geom_get_collide_bits(o2)) |
+         (ode.geom_get_category_bits(o2) & ode.geom_get_collide_bits(o1))) == 0) {
+      continue;
+    }
+    if ((record.mirror.all_traits & kHasAabbTest) != 0 && !is_near(record, pair)) continue;
+    deliver(frame, {o1, o2});
+    if (frame.stopped) return;
+  }
+}
+
+template <class Real>
+template <class PairAt, class IsNear>
+void Replayer<Real>::replay_all(Frame<Real>& frame, std::size_t count, const PairAt& pair_at,
+                                const IsNear& is_near) const {
+  for (std::size_t k = 0; k < count; ++k) {
+    const GeomPair pair = pair_at(k);
+    if (frame.disturbed) [[unlikely]] {
+      if (goes_on_otherwise(frame)) return;
+      if (!is_due(frame, pair)) continue;
+    }
+    if (!is_near(k)) continue;
+    frame.number = k;
+    deliver(frame, pair);
+  }
+  // The last callback, too, may have let libode's walk find more.
+  if (frame.disturbed) (void)goes_on_otherwise(frame);
+}
+
+template <class Real>
+void Replayer<Real>::replay(Frame<Real>& frame, SpaceRecord<Real>& record) const {
   frame.record = &record;
   frame.version = record.version.load(std::memory_order_relaxed);
   const bool asks = (record.mirror.all_traits & kHasAabbTest) != 0;
-  dxGeom* const* const geoms = record.mirror.geoms.data();
+  const Mirror<Real>& mirror = record.mirror;
+  dxGeom* const* const geoms = mirror.geoms.data();
   const IndexPair* const pairs = record.pairs.data();
   const std::size_t count = record.pairs.size();
   // Where contacts come from libode its next geoms can be on their way meanwhile.
-  const bool fetches = !record.mirror.only_spheres;
-  for (std::size_t k = 0; k < count; ++k) {
-    if (fetches && k + kPrefetchDistance < count) {
-      record.mirror.prefetch(pairs[k + kPrefetchDistance].g2);
-    }
-    const GeomPair pair{geoms[pairs[k].g1], geoms[pairs[k].g2]};
-    bool due = true;
-    if (frame.disturbed) [[unlikely]] {
-      if (frame.stopped) return;
-      if (frame.awakened && live != LiveCheck::none && resume(frame, live, rerun)) return;
-      due = is_due(frame, pair, live);
-    }
-    due = due && (!asks || is_near(record, pairs[k]));
-    frame.o1 = pair.o1;
-    frame.o2 = pair.o2;
-    frame.number = k;
-    if (due) callback(data, pair.o1, pair.o2);
-  }
-  // The last callback, too, may have let libode's walk find more.
-  if (frame.awakened && !frame.stopped && live != LiveCheck::none) {
-    (void)resume(frame, live, rerun);
-  }
+  const bool fetches = !mirror.only_spheres;
+  replay_all(
+      frame, count,
+      [&](std::size_t k) {
+        if (fetches && k + kPrefetchDistance < count) {
+          mirror.prefetch(pairs[k + kPrefetchDistance].g2);
+        }
+        return GeomPair{geoms[pairs[k].g1], geoms[pairs[k].g2]};
+      },
+      [&](std::size_t k) { return !asks || is_near(record, pairs[k]); });
 }
 
 template <class Real>
-void Replayer<Real>::replay(Frame<Real>& frame, std::span<const GeomPair> pairs, LiveCheck live,
-                            const Rerun& rerun) const {
-  for (const GeomPair& pair : pairs) {
-    bool due = true;
-    if (frame.disturbed) [[unlikely]] {
-      if (frame.stopped) return;
-      if (frame.awakened && live != LiveCheck::none && resume(frame, live, rerun)) return;
-      due = is_due(frame, pair, live);
-    }
-    frame.o1 = pair.o1;
-    frame.o2 = pair.o2;
-    if (due) callback(data, pair.o1, pair.o2);
-  }
-  if (frame.awakened && !frame.stopped && live != LiveCheck::none) {
-    (void)resume(frame, live, rerun);
-  }
+void Replayer<Real>::replay(Frame<Real>& frame) const {
+  replay_all(
+      frame, frame.scanned.size(), [&](std::size_t k) { return frame.scanned[k]; },
+      [](std::size_t) { return true; });
 }
 
 template struct Replayer<float>;

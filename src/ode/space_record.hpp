@@ -17,12 +17,6 @@
 
 namespace harpoon::ode {
 
-/// o1 and o2 of a callback.
-struct GeomPair {
-  dxGeom *o1, *o2;
-  bool operator==(const GeomPair&) const = default;
-};
-
 template <class Real>
 struct SpaceRecord {
   SpaceRecord(dxSpace* the_space, int the_kind) : space(the_space), kind(the_kind) {}
@@ -62,6 +56,24 @@ struct SpaceRecord {
   bool sap_is_ours = false;           ///< libode is not asked any more, its history is old
   std::vector<GeomPair> recorded;     ///< libode's own sequence
   bool recorded_valid = false;
+
+  /// Calls yet to be left to libode, because callbacks change what it reads while it walks.
+  int calls_left_to_stock = 0;
+  int calls_left_last_time = 0;
+  /// A call had to be handed over: each time twice as many that follow it are left to libode.
+  void note_handover() {
+    calls_left_last_time = std::min(2 * calls_left_last_time + 1, 63);
+    calls_left_to_stock = calls_left_last_time;
+  }
+  /// A call went through without.
+  void note_own_course() {
+    if (calls_left_to_stock == 0) calls_left_last_time = 0;
+  }
+  [[nodiscard]] bool leaves_call_to_stock() {
+    if (calls_left_to_stock == 0) return false;
+    --calls_left_to_stock;
+    return true;
+  }
 
   /// The bounds and pose of one geom have changed. Allocates nothing: what `expect_moves` has made
   /// room for is remembered.

@@ -19,6 +19,10 @@ std::string to_line(const Statistics& s, std::string_view device) {
   if (s.missed_by_stock.load() != 0) {
     line += fmt::format("; {} pairs that a stock hash space misses", s.missed_by_stock.load());
   }
+  if (s.handed_over.load() != 0) {
+    line += fmt::format("; {} calls handed over to libode, for callbacks change what is collided",
+                        s.handed_over.load());
+  }
   if (s.verified_pairs.load() != 0) {
     line += fmt::format("; {} pairs verified", s.verified_pairs.load());
   }

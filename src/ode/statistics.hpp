@@ -20,6 +20,7 @@ struct Statistics {
   Counter scanned{0};          ///< dSpaceCollide2 calls answered by Harpoon
   Counter scanned_spaces{0};   ///< those of them whose arguments were two spaces
   Counter left_to_stock{0};    ///< small, nested, unknown: libode's own
+  Counter handed_over{0};      ///< to libode in the middle of a call, which callbacks change
   Counter pairs{0};            ///< near callbacks
   Counter batch_contacts{0};   ///< dCollide calls answered from a batch
   Counter stock_contacts{0};   ///< other dCollide calls while a space was replayed

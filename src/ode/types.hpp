@@ -35,6 +35,20 @@ inline constexpr int kContactCountMask = 0xffff;
 /// dAABBTestFn: 0 when the geom can prove that it does not touch the box.
 using AabbTest = int(dxGeom* geom, dxGeom* other, void* bounds_of_other);
 
+/// o1 and o2 of a callback.
+struct GeomPair {
+  dxGeom *o1, *o2;
+  bool operator==(const GeomPair&) const = default;
+};
+
+/// What is about to change.
+enum class Change : std::uint8_t {
+  filter,   ///< a geom's body, category or collide bits
+  enabled,  ///< a geom is about to be enabled
+  moved,    ///< a geom's pose or bounds
+  members,  ///< the geoms of a space
+};
+
 /// A space is a geom: libode's own callers cast in this way.
 [[nodiscard]] inline dxGeom* as_geom(dxSpace* space) {
   return reinterpret_cast<dxGeom*>(space);

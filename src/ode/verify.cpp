@@ -32,9 +32,9 @@ std::string describe(const LibodeOf<Real>& ode, dxGeom* geom) {
 }
 
 template <class Real>
-std::string describe(const LibodeOf<Real>& ode, std::span<const GeomPair> pairs, std::size_t k) {
-  if (k >= pairs.size()) return "nothing";
-  return fmt::format("{} and {}", describe(ode, pairs[k].o1), describe(ode, pairs[k].o2));
+std::string describe(const LibodeOf<Real>& ode, const GeomPair* pair) {
+  if (pair == nullptr) return "nothing";
+  return fmt::format("{} and {}", describe(ode, pair->o1), describe(ode, pair->o2));
 }
 
 template <class Real>
@@ -48,17 +48,44 @@ std::string describe(const ContactGeomOf<Real>* contact) {
 }  // namespace
 
 template <class Real>
-std::optional<std::string> compare_pairs(const LibodeOf<Real>& ode, const SpaceRecord<Real>& record,
-                                         std::span<const GeomPair> ours,
-                                         std::span<const GeomPair> stock) {
-  const auto [at, stock_at] = std::mismatch(ours.begin(), ours.end(), stock.begin(), stock.end());
-  if (at == ours.end() && stock_at == stock.end()) return std::nullopt;
-  const auto k = static_cast<std::size_t>(at - ours.begin());
-  return fmt::format(
-      "call {} on {} space {} with {} geoms: of {} pairs ({} in stock) number {} is {}; stock has "
-      "{}",
-      record.calls, kind_name(record.kind), fmt::ptr(record.space), record.mirror.size(),
-      ours.size(), stock.size(), k, describe(ode, ours, k), describe(ode, stock, k));
+void Verifier<Real>::abandon() {
+  ended_ = true;
+  walk_.abandon();
+}
+
+template <class Real>
+void Verifier<Real>::compare(const GeomPair* ours) {
+  if (ended_) return;
+  try {
+    GeomPair pair;
+    const GeomPair* const stock = walk_.next(pair) ? &pair : nullptr;
+    const bool same = ours == nullptr ? stock == nullptr : stock != nullptr && *ours == *stock;
+    if (!same) return report(ours, stock);
+    if (stock != nullptr) {
+      ++compared_;
+      seen_.push_back(pair);
+    }
+  } catch (const std::bad_alloc&) {
+    // The program goes on; this call stays unverified from here on.
+    ended_ = true;
+  }
+}
+
+template <class Real>
+void Verifier<Real>::report(const GeomPair* ours, const GeomPair* stock) {
+  ended_ = true;
+  const SpaceRecord<Real>& record = call_.record;
+  const std::string difference =
+      fmt::format("{}, call {} on {} space {} with {} geoms: pair number {} is {}; stock has {}",
+                  call_.name, record.calls, kind_name(record.kind), fmt::ptr(record.space),
+                  record.mirror.size(), seen_.size(), describe(ode_, ours), describe(ode_, stock));
+  if (!call_.can_be_repeated) return differs_(difference, nullptr);
+  GeomPair pair;
+  if (stock != nullptr) seen_.push_back(*stock);
+  while (walk_.next(pair)) seen_.push_back(pair);
+  CollisionFrame frame = frame_of<Real>(ode_, record, call_.policy, seen_);
+  frame.difference = difference;
+  differs_(difference, &frame);
 }
 
 template <class Real>
@@ -116,13 +143,8 @@ std::optional<std::string> compare_contacts(const LibodeOf<Real>& ode, GeomPair 
                      describe(ode, pair.o2), describe(ours), describe(stock));
 }
 
-template std::optional<std::string> compare_pairs(const LibodeOf<float>&, const SpaceRecord<float>&,
-                                                  std::span<const GeomPair>,
-                                                  std::span<const GeomPair>);
-template std::optional<std::string> compare_pairs(const LibodeOf<double>&,
-                                                  const SpaceRecord<double>&,
-                                                  std::span<const GeomPair>,
-                                                  std::span<const GeomPair>);
+template class Verifier<float>;
+template class Verifier<double>;
 template CollisionFrame frame_of(const LibodeOf<float>&, const SpaceRecord<float>&, Policy,
                                  std::span<const GeomPair>);
 template CollisionFrame frame_of(const LibodeOf<double>&, const SpaceRecord<double>&, Policy,

@@ -133,8 +133,11 @@ double World::coordinate() {
 }
 
 double World::size() {
-  return plan_.lattice ? 0.25 * static_cast<double>(1 + random_.below(3))
-                       : random_.between(0.1, 0.7);
+  return size_of(random_);
+}
+
+double World::size_of(Random& random) const {
+  return plan_.lattice ? 0.25 * static_cast<double>(1 + random.below(3)) : random.between(0.1, 0.7);
 }
 
 dGeomID World::make_shape() {
@@ -357,6 +360,7 @@ void World::on_near(dGeomID o1, dGeomID o2) {
     (choice.below(2) == 0 ? ode_.geom_disable : ode_.geom_enable)(geom);
   }
   if (moves_others_ && choice.below(24) == 0) move_other(o1, o2, choice.bits());
+  if (plan_.changes_in_callbacks && choice.below(16) == 0) change_within(o1, o2, choice);
   if (plan_.nested_calls && others_ != nullptr && choice.below(64) == 0) {
     ++nested;
     // A stock SAP space that is collided within its own callbacks after geoms were toggled goes on
@@ -364,6 +368,51 @@ void World::on_near(dGeomID o1, dGeomID o2) {
     const bool may_be_same = plan_.kind != SpaceKind::sap || !plan_.toggles_in_callbacks;
     ode_.space_collide(may_be_same && choice.below(2) == 0 ? space_ : others_, this, &near_nested);
     note_contacts(o1, o2, 4);
+  }
+}
+
+/// Whatever a callback may do to a geom, be it of the pair, of the space, within a space of it, or
+/// of another space.
+void World::change_within(dGeomID o1, dGeomID o2, Random& choice) {
+  Slot& slot = slots_[choice.below(slots_.size())];
+  const dGeomID geom = choice.below(2) == 0 ? slot.geom : choice.below(2) == 0 ? o1 : o2;
+  if (dGeomIsSpace(geom) != 0 || dGeomGetClass(geom) == dPlaneClass) return;
+  ++changed_in_callbacks;
+  const auto at = [&] { return choice.between(-plan_.extent, plan_.extent); };
+  dReal bounds[6];
+  switch (choice.below(8)) {
+    case 0:
+      dGeomSetCategoryBits(geom, choice.below(2) == 0 ? 0 : ~0UL);
+      dGeomSetCollideBits(geom, choice.below(2) == 0 ? 0 : ~0UL);
+      return;
+    case 1:
+      dGeomSetBody(geom, slot.body);
+      return;
+    case 2:
+      dGeomSetPosition(geom, at(), at(), at());
+      return;
+    case 3:
+      dGeomSetPosition(geom, at(), at(), at());
+      dGeomGetAABB(geom, bounds);
+      return;
+    case 4:
+      if (dGeomGetClass(geom) == dSphereClass) dGeomSphereSetRadius(geom, size_of(choice));
+      return;
+    case 5:
+      if (slot.body != nullptr) dBodySetPosition(slot.body, at(), at(), at());
+      return;
+    case 6:
+      dSpaceClean(space_);
+      return;
+    default: {
+      // From one space to another, where libode's walk is told of it.
+      const dSpaceID home = dGeomGetSpace(geom);
+      const dSpaceID next = within_ != nullptr && choice.below(2) == 0 ? within_ : home;
+      dSpaceRemove(home, geom);
+      dGeomSetPosition(geom, at(), at(), at());
+      dSpaceAdd(next, geom);
+      return;
+    }
   }
 }
 

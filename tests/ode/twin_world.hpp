@@ -38,6 +38,9 @@ struct WorldPlan {
   bool spheres_only = false;
   bool toggles_in_callbacks = false;
   bool nested_calls = false;
+  /// Callbacks change filters, bodies, poses, sizes and the members of spaces: only on a libode
+  /// that does not check its locks.
+  bool changes_in_callbacks = false;
   bool user_class = false;
   bool keeps_geoms = false;   ///< none is made, destroyed or moved between bodies after the start
   std::uint32_t others = 4;   ///< geoms in a second space to collide against the first; 0: none
@@ -66,7 +69,7 @@ class World {
 
   // What happened, for tests that must not be vacuous.
   std::uint64_t callbacks = 0, contacts = 0, toggled = 0, added = 0, removed = 0, nested = 0,
-                between_spaces = 0, moved_between = 0;
+                between_spaces = 0, moved_between = 0, changed_in_callbacks = 0;
 
  private:
   struct Slot {
@@ -85,9 +88,11 @@ class World {
   void move_few();
   void collide_spaces();
   void move_other(dGeomID o1, dGeomID o2, std::uint64_t choice);
+  void change_within(dGeomID o1, dGeomID o2, Random& choice);
   [[nodiscard]] std::size_t first_other() const { return slots_.size() - plan_.others; }
   double coordinate();
   double size();
+  double size_of(Random& random) const;
   [[nodiscard]] std::uint64_t number_of(dGeomID geom) const;
 
   const StockOde& ode_;

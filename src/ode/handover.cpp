@@ -8,28 +8,45 @@
 namespace harpoon::ode {
 namespace {
 
-/// While it lives, two geoms are enabled.
+/// While it lives, geoms have other enabled flags than callbacks gave them.
 template <class Real>
-class BothEnabled {
+class OtherFlags {
  public:
-  BothEnabled(const LibodeOf<Real>& ode, GeomPair pair) : ode_(ode), geoms_{pair.o1, pair.o2} {
-    for (int side = 0; side < 2; ++side) {
-      was_enabled_[side] = ode_.geom_is_enabled(geoms_[side]) != 0;
-      if (!was_enabled_[side]) ode_.geom_enable(geoms_[side]);
+  explicit OtherFlags(const LibodeOf<Real>& ode) : ode_(ode) {}
+  ~OtherFlags() {
+    for (dxGeom* geom : changed_) flip(geom);
+  }
+  OtherFlags(const OtherFlags&) = delete;
+  OtherFlags& operator=(const OtherFlags&) = delete;
+
+  /// Throws std::bad_alloc.
+  void set(dxGeom* geom, bool enabled) {
+    if ((ode_.geom_is_enabled(geom) != 0) == enabled) return;
+    changed_.push_back(geom);
+    flip(geom);
+  }
+
+  /// Those that all geoms of a space had when its mirror was read. Nothing else has happened to its
+  /// list since. Throws std::bad_alloc.
+  void set_back(dxSpace* space, const Mirror<Real>& mirror) {
+    const int count = ode_.space_get_num_geoms(space);
+    std::uint32_t slot = 0;
+    for (int k = 0; k < count; ++k) {
+      dxGeom* const geom = ode_.space_get_geom(space, k);
+      while (slot < mirror.size() && mirror.geoms[slot] == nullptr) ++slot;
+      const bool took_part = slot < mirror.size() && mirror.geoms[slot] == geom;
+      if (took_part) ++slot;
+      set(geom, took_part);
     }
   }
-  ~BothEnabled() {
-    for (int side = 0; side < 2; ++side) {
-      if (!was_enabled_[side]) ode_.geom_disable(geoms_[side]);
-    }
-  }
-  BothEnabled(const BothEnabled&) = delete;
-  BothEnabled& operator=(const BothEnabled&) = delete;
 
  private:
+  void flip(dxGeom* geom) {
+    (ode_.geom_is_enabled(geom) != 0 ? ode_.geom_disable : ode_.geom_enable)(geom);
+  }
+
   const LibodeOf<Real>& ode_;
-  dxGeom* const geoms_[2];
-  bool was_enabled_[2];
+  std::vector<dxGeom*> changed_;
 };
 
 }  // namespace
@@ -51,7 +68,7 @@ bool is_walked_over(const dxSpace* space) {
 /// whose filter changes, and at all spaces around what moves.
 template <class Real>
 bool Handover<Real>::ends_stock(dxGeom* geom, Change change) const {
-  if (!locks_are_checked || change == Change::enabled) return false;
+  if (!locks_are_checked || change == Change::enabled || change == Change::disabled) return false;
   if (change == Change::filter) return is_walked_over<Real>(ode.geom_get_space(geom));
   dxSpace* around = change == Change::members ? as_space(geom) : ode.geom_get_space(geom);
   while (around != nullptr && !is_walked_over<Real>(around)) {
@@ -60,13 +77,26 @@ bool Handover<Real>::ends_stock(dxGeom* geom, Change change) const {
   return around != nullptr;
 }
 
+namespace {
+
+/// Replays leave out what has been disabled. A space with libode's own order cannot be taken back
+/// to the flags that it had at the start.
+template <class Real>
+bool reads_flags(const Frame<Real>& frame, Change change) {
+  if (frame.live != LiveCheck::none) return change == Change::enabled;
+  return frame.record != nullptr && !frame.record->mirror_valid;
+}
+
+}  // namespace
+
 template <class Real>
 bool Handover<Real>::concerns(const Frame<Real>& frame, dxGeom* geom, Change change) const {
   switch (change) {
     case Change::filter:
       return geom == frame.probe || ode.geom_get_space(geom) == frame.space;
     case Change::enabled:
-      return frame.live != LiveCheck::none && ode.geom_get_space(geom) == frame.space;
+    case Change::disabled:
+      return ode.geom_get_space(geom) == frame.space && reads_flags(frame, change);
     case Change::moved:
     case Change::members:
       break;
@@ -135,7 +165,13 @@ bool Handover<Real>::start_walk(Frame<Real>& frame) const {
   if (frame.has_begun && pair.o1 == nullptr) return false;
   frame.walk.emplace(frame.stock, std::move(frame.stack));
   if (frame.has_begun) {
-    const BothEnabled<Real> enabled(ode, pair);
+    // On its way to the pair at hand libode is to see the flags that it saw the first time.
+    OtherFlags<Real> flags(ode);
+    if (frame.live == LiveCheck::none && frame.toggled && frame.record->mirror_valid) {
+      flags.set_back(frame.space, frame.record->mirror);
+    }
+    flags.set(pair.o1, true);
+    flags.set(pair.o2, true);
     if (!frame.walk->skip_to(pair)) return false;
   }
   frame.course = Course::stock;

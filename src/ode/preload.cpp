@@ -88,7 +88,7 @@ void set_enabled(dxGeom* geom, bool enabled, void (*set)(dxGeom*)) {
   Engine* const engine = drop_in_if_made();
   const bool changes =
       engine != nullptr && geom != nullptr && (libode().geom_is_enabled(geom) != 0) != enabled;
-  if (changes && enabled) changing(geom, Change::enabled);
+  if (changes) changing(geom, enabled ? Change::enabled : Change::disabled);
   set(geom);
   if (changes) engine->toggled(geom);
 }

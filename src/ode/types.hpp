@@ -43,8 +43,9 @@ struct GeomPair {
 
 /// What is about to change.
 enum class Change : std::uint8_t {
-  filter,   ///< a geom's body, category or collide bits
-  enabled,  ///< a geom is about to be enabled
+  filter,  ///< a geom's body, category or collide bits
+  enabled,
+  disabled,
   moved,    ///< a geom's pose or bounds
   members,  ///< the geoms of a space
 };

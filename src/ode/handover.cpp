@@ -167,7 +167,7 @@ bool Handover<Real>::start_walk(Frame<Real>& frame) const {
   if (frame.has_begun) {
     // On its way to the pair at hand libode is to see the flags that it saw the first time.
     OtherFlags<Real> flags(ode);
-    if (frame.live == LiveCheck::none && frame.toggled && frame.record->mirror_valid) {
+    if (frame.live == LiveCheck::none && frame.record->mirror_valid) {
       flags.set_back(frame.space, frame.record->mirror);
     }
     flags.set(pair.o1, true);

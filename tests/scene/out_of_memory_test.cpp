@@ -2,83 +2,10 @@
 
 #include <gtest/gtest.h>
 
-#include <cstdlib>
-#include <new>
-
 #include "harpoon/scene.hpp"
 #include "scene/brute_force.hpp"
 #include "scene/worlds.hpp"
-
-namespace {
-
-/// Allocations until one fails; below 0 for never. One thread only.
-thread_local long allocations_left = -1;
-
-bool fails() {
-  if (allocations_left < 0) return false;
-  return allocations_left-- == 0;
-}
-
-void* allocate(std::size_t bytes, std::size_t alignment) {
-  if (fails()) return nullptr;
-  if (alignment <= alignof(std::max_align_t)) return std::malloc(bytes == 0 ? 1 : bytes);
-  return std::aligned_alloc(alignment, (bytes + alignment - 1) / alignment * alignment);
-}
-
-void* allocate_or_throw(std::size_t bytes, std::size_t alignment) {
-  void* const memory = allocate(bytes, alignment);
-  if (memory == nullptr) throw std::bad_alloc();
-  return memory;
-}
-
-}  // namespace
-
-void* operator new(std::size_t n) {
-  return allocate_or_throw(n, 1);
-}
-void* operator new[](std::size_t n) {
-  return allocate_or_throw(n, 1);
-}
-void* operator new(std::size_t n, const std::nothrow_t&) noexcept {
-  return allocate(n, 1);
-}
-void* operator new[](std::size_t n, const std::nothrow_t&) noexcept {
-  return allocate(n, 1);
-}
-void* operator new(std::size_t n, std::align_val_t a) {
-  return allocate_or_throw(n, static_cast<std::size_t>(a));
-}
-void* operator new(std::size_t n, std::align_val_t a, const std::nothrow_t&) noexcept {
-  return allocate(n, static_cast<std::size_t>(a));
-}
-// Not inlined: g++ would see new paired with free and warn.
-[[gnu::noinline]] void operator delete(void* p) noexcept {
-  std::free(p);
-}
-[[gnu::noinline]] void operator delete[](void* p) noexcept {
-  std::free(p);
-}
-[[gnu::noinline]] void operator delete(void* p, std::size_t) noexcept {
-  std::free(p);
-}
-[[gnu::noinline]] void operator delete[](void* p, std::size_t) noexcept {
-  std::free(p);
-}
-[[gnu::noinline]] void operator delete(void* p, const std::nothrow_t&) noexcept {
-  std::free(p);
-}
-[[gnu::noinline]] void operator delete[](void* p, const std::nothrow_t&) noexcept {
-  std::free(p);
-}
-[[gnu::noinline]] void operator delete(void* p, std::align_val_t) noexcept {
-  std::free(p);
-}
-[[gnu::noinline]] void operator delete(void* p, std::size_t, std::align_val_t) noexcept {
-  std::free(p);
-}
-[[gnu::noinline]] void operator delete(void* p, std::align_val_t, const std::nothrow_t&) noexcept {
-  std::free(p);
-}
+#include "support/failing_allocations.hpp"
 
 namespace harpoon::testing {
 namespace {
@@ -94,10 +21,9 @@ std::vector<Sphere> some_world() {
 template <class Attempt>
 int fail_everywhere(const Attempt& attempt) {
   for (int n = 0;; ++n) {
-    allocations_left = n;
+    test::fail_allocation(n);
     const std::optional<Errc> error = attempt();
-    const bool failed = allocations_left < 0;
-    allocations_left = -1;
+    const bool failed = test::allocation_has_failed();
     if (!failed) {
       EXPECT_FALSE(error.has_value());
       return n;

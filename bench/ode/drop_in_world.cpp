@@ -13,11 +13,14 @@
 namespace harpoon::bench {
 namespace {
 
-constexpr std::array<std::pair<std::string_view, DropInKind>, 4> kKinds = {{
+constexpr std::array<std::pair<std::string_view, DropInKind>, 7> kKinds = {{
     {"packed", DropInKind::packed},
     {"gas", DropInKind::gas},
     {"mixed", DropInKind::mixed},
     {"asleep", DropInKind::asleep},
+    {"chain", DropInKind::chain},
+    {"fallen", DropInKind::fallen},
+    {"cars", DropInKind::cars},
 }};
 constexpr std::array<std::string_view, kSpaceKinds> kSpaces = {"simple", "hash", "sap", "quadtree"};
 constexpr double kRadius = 0.5;
@@ -30,6 +33,14 @@ constexpr int kMaxContacts = 8;
 /// 64 x 64 squares of two triangles.
 constexpr int kGroundSquares = 64;
 constexpr int kQuadtreeDepth = 6;
+/// Of neighbours in a chain.
+constexpr double kChainGap = 1.9 * kRadius;
+/// One of so many has fallen, by so many metres a geom.
+constexpr std::size_t kFallenShare = 20;
+constexpr double kFallMetres = 1e5;
+/// Geoms of a car, between two of which there are so many metres.
+constexpr std::size_t kCarGeoms = 5;
+constexpr double kCarGap = 0.8 * kRadius;
 
 dSpaceID make_space(SpaceKind kind, double extent) {
   const dVector3 center = {extent, extent, extent, 0}, extents = {extent, extent, extent, 0};
@@ -84,6 +95,53 @@ std::vector<Point> gas_points(std::size_t count, double& extent, Numbers& number
   return points;
 }
 
+std::vector<Point> chain_points(std::size_t count, double& extent) {
+  std::vector<Point> points(count);
+  for (std::size_t k = 0; k < count; ++k) points[k] = {static_cast<double>(k) * kChainGap, 1, 1};
+  extent = static_cast<double>(count) * kChainGap / 2;
+  return points;
+}
+
+/// Like gas, but what has fallen is at depths of its own.
+std::vector<Point> fallen_points(std::size_t count, double& extent, Numbers& numbers) {
+  std::vector<Point> points = gas_points(count, extent, numbers);
+  for (std::size_t k = 0; k < count; k += kFallenShare) {
+    points[k].z -= kFallMetres * static_cast<double>(1 + k);
+  }
+  return points;
+}
+
+/// Cars are where the geoms of a gas would be.
+std::vector<Point> car_points(std::size_t count, double& extent, Numbers& numbers) {
+  std::vector<Point> points =
+      gas_points((count + kCarGeoms - 1) / kCarGeoms * kCarGeoms, extent, numbers);
+  for (std::size_t k = 0; k < points.size(); ++k) {
+    const Point& car = points[k - k % kCarGeoms];
+    points[k] = {car.x + static_cast<double>(k % kCarGeoms) * kCarGap, car.y, car.z};
+  }
+  points.resize(count);
+  return points;
+}
+
+std::vector<Point> make_points(DropInKind kind, std::size_t count, double& extent,
+                               Numbers& numbers) {
+  switch (kind) {
+    case DropInKind::gas:
+      return gas_points(count, extent, numbers);
+    case DropInKind::chain:
+      return chain_points(count, extent);
+    case DropInKind::fallen:
+      return fallen_points(count, extent, numbers);
+    case DropInKind::cars:
+      return car_points(count, extent, numbers);
+    case DropInKind::packed:
+    case DropInKind::mixed:
+    case DropInKind::asleep:
+      break;
+  }
+  return lattice_points(count, extent, numbers);
+}
+
 dGeomID make_shape(DropInKind kind, std::size_t number) {
   if (kind == DropInKind::mixed && number % 3 == 1) {
     return dCreateBox(nullptr, 1.8 * kRadius, 1.8 * kRadius, 1.8 * kRadius);
@@ -101,6 +159,7 @@ struct Walk {
 };
 
 void near(void* data, dGeomID o1, dGeomID o2) {
+  if (dGeomIsSpace(o1) != 0 || dGeomIsSpace(o2) != 0) return dSpaceCollide2(o1, o2, data, &near);
   Walk& walk = *static_cast<Walk*>(data);
   dContactGeom contacts[kMaxContacts];
   ++walk.pairs;
@@ -109,6 +168,9 @@ void near(void* data, dGeomID o1, dGeomID o2) {
 }
 
 void near_hashed(void* data, dGeomID o1, dGeomID o2) {
+  if (dGeomIsSpace(o1) != 0 || dGeomIsSpace(o2) != 0) {
+    return dSpaceCollide2(o1, o2, data, &near_hashed);
+  }
   Walk& walk = *static_cast<Walk*>(data);
   dContactGeom contacts[kMaxContacts];
   const int count = dCollide(o1, o2, kMaxContacts, contacts, sizeof(dContactGeom));
@@ -145,14 +207,15 @@ std::string_view to_string(SpaceKind kind) {
 DropInWorld::DropInWorld(DropInKind kind, SpaceKind space, std::size_t geoms, std::uint64_t seed)
     : kind_(kind), seed_(seed), world_(dWorldCreate()) {
   Numbers numbers(seed);
-  std::vector<Point> points = kind == DropInKind::gas ? gas_points(geoms, extent_, numbers)
-                                                      : lattice_points(geoms, extent_, numbers);
+  std::vector<Point> points = make_points(kind, geoms, extent_, numbers);
   // Neighbours in space are none in memory, as in a program that has run for a while.
-  for (std::size_t i = points.size(); i > 1; --i) {
+  for (std::size_t i = points.size(); i > 1 && kind != DropInKind::cars; --i) {
     std::swap(points[i - 1], points[numbers.bits() % i]);
   }
   space_ = make_space(space, extent_);
+  home_ = space_;
   for (std::size_t number = 0; number < points.size(); ++number) {
+    if (kind == DropInKind::cars && number % kCarGeoms == 0) home_ = dSimpleSpaceCreate(space_);
     add(make_shape(kind, number), points[number].x, points[number].y, points[number].z);
   }
   if (kind == DropInKind::mixed) add_ground();
@@ -169,7 +232,7 @@ void DropInWorld::add(dGeomID geom, double x, double y, double z) {
   dGeomSetData(geom, reinterpret_cast<void*>(bodies_.size()));
   dGeomSetBody(geom, body);
   dBodySetPosition(body, x, y, z);
-  dSpaceAdd(space_, geom);
+  dSpaceAdd(home_, geom);
   bodies_.push_back({body, x, y, z});
 }
 

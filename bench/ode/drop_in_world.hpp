@@ -22,6 +22,9 @@ enum class DropInKind : std::uint8_t {
   gas,     ///< uniform in a cube, 5 % of its volume, all moved
   mixed,   ///< packed; a third each of spheres, boxes and capsules over a ground of 8,192 triangles
   asleep,  ///< packed, nothing moved
+  chain,   ///< in a row along x, each touching the next
+  fallen,  ///< gas, of which a twentieth has fallen out of the world, far below it
+  cars,    ///< groups of five geoms close together, each in a space of its own in the space
 };
 std::optional<DropInKind> parse_drop_in_kind(std::string_view name);
 std::string_view to_string(DropInKind kind);
@@ -58,6 +61,7 @@ class DropInWorld final : public Program {
   double extent_ = 0;
   dWorldID world_;
   dSpaceID space_ = nullptr;
+  dSpaceID home_ = nullptr;  ///< of the geoms that are added
   dTriMeshDataID mesh_ = nullptr;
   std::vector<float> vertices_;
   std::vector<dTriIndex> triangles_;

@@ -14,10 +14,11 @@
 #include "harpoon/error.hpp"
 #include "harpoon/export.hpp"
 
-// ODE's handles: dGeomID, dSpaceID and dBodyID are pointers to these.
+// ODE's handles: dGeomID, dSpaceID, dBodyID and dWorldID are pointers to these.
 struct dxGeom;
 struct dxSpace;
 struct dxBody;
+struct dxWorld;
 
 namespace harpoon::ode {
 
@@ -67,12 +68,19 @@ struct LibodeOf {
   void (*cylinder_get_params)(dxGeom*, Real*, Real*) = nullptr;
 
   // Used once, to see what this build of ODE does with geoms of Harpoon's own: the bits of its
-  // contacts of spheres, and whether it ends the process when a callback changes a geom.
+  // contacts of spheres, whether it ends the process when a callback changes a geom, and where it
+  // keeps what is read of every geom.
   dxSpace* (*simple_space_create)(dxSpace*) = nullptr;
   dxGeom* (*create_sphere)(dxSpace*, Real) = nullptr;
   void (*geom_set_position)(dxGeom*, Real, Real, Real) = nullptr;
+  void (*geom_set_offset_position)(dxGeom*, Real, Real, Real) = nullptr;
+  void (*geom_set_body)(dxGeom*, dxBody*) = nullptr;
   void (*geom_set_category_bits)(dxGeom*, unsigned long) = nullptr;
+  void (*geom_set_collide_bits)(dxGeom*, unsigned long) = nullptr;
   void (*geom_destroy)(dxGeom*) = nullptr;
+  dxWorld* (*world_create)() = nullptr;
+  void (*world_destroy)(dxWorld*) = nullptr;
+  dxBody* (*body_create)(dxWorld*) = nullptr;
   MessageFunction* (*get_debug_handler)() = nullptr;
   void (*set_debug_handler)(MessageFunction*) = nullptr;
 };
@@ -107,8 +115,14 @@ inline LibodeOf<dReal> linked_libode() {
   ode.simple_space_create = &dSimpleSpaceCreate;
   ode.create_sphere = &dCreateSphere;
   ode.geom_set_position = &dGeomSetPosition;
+  ode.geom_set_offset_position = &dGeomSetOffsetPosition;
+  ode.geom_set_body = &dGeomSetBody;
   ode.geom_set_category_bits = &dGeomSetCategoryBits;
+  ode.geom_set_collide_bits = &dGeomSetCollideBits;
   ode.geom_destroy = &dGeomDestroy;
+  ode.world_create = &dWorldCreate;
+  ode.world_destroy = &dWorldDestroy;
+  ode.body_create = &dBodyCreate;
   ode.get_debug_handler = &dGetDebugHandler;
   ode.set_debug_handler = &dSetDebugHandler;
   return ode;

@@ -4,6 +4,7 @@
 
 #include <algorithm>
 #include <chrono>
+#include <mutex>
 #include <optional>
 #include <string_view>
 #include <unordered_map>
@@ -208,7 +209,10 @@ class EngineOf final : public Engine {
   std::atomic<bool> locks_are_checked_{false};
   std::atomic<std::uint64_t> looks_{1};  ///< how often what is known of spaces has been renewed
   UserTests user_tests_{};
-  const Refresher<Real> refresher_{ode_, options_, user_tests_, parts_.log, statistics_};
+  GeomLayout layout_;  ///< found when the first space is looked at
+  std::once_flag layout_is_found_;
+  const GeomReader<Real> reader_{ode_, layout_, user_tests_};
+  const Refresher<Real> refresher_{reader_, options_, parts_.log, statistics_};
   ContactSource source_;
   enum class Agreement { unknown, yes, no };
   std::atomic<Agreement> spheres_{Agreement::unknown};
@@ -259,6 +263,7 @@ SpaceRecord<Real>* EngineOf<Real>::find_or_make(dxSpace* space, int kind) {
 template <class Real>
 SpaceRecord<Real>* EngineOf<Real>::put(dxSpace* space, std::shared_ptr<Record> record) {
   Statistics::add(statistics_.spaces, 1);
+  std::call_once(layout_is_found_, [this] { layout_ = find_geom_layout(ode_); });
   if (table_.empty() && parts_.before_first_space) parts_.before_first_space();
   count_look();
   return table_.put(space, std::move(record));
@@ -320,7 +325,7 @@ bool EngineOf<Real>::replay_record(Record& record, LiveCheck live, void* data,
   const VerifiedCall<Real> verified{
       "dSpaceCollide", record, options_.policy,
       record.kind != geom_class::kQuadtreeSpace && record.mirror_valid};
-  Replayer<Real> replayer{ode_, user_tests_, data, callback};
+  Replayer<Real> replayer{reader_, data, callback};
   Statistics::add(statistics_.pairs, record.pairs.size());
   if (!run(frame, is_comparable(record) ? &verified : nullptr, replayer,
            [&] { replayer.replay(frame, record); })) {
@@ -375,7 +380,7 @@ void EngineOf<Real>::intern_recorded(Record& record) const {
   std::unordered_map<dxGeom*, std::uint32_t> places;
   const auto place_of = [&](dxGeom* geom) {
     const auto [place, is_new] = places.try_emplace(geom, mirror.size());
-    if (is_new) mirror.append_for_contacts(ode_, geom, user_tests_);
+    if (is_new) mirror.append_for_contacts(reader_, geom);
     return place->second;
   };
   for (const auto& [o1, o2] : record.recorded) {
@@ -539,7 +544,7 @@ bool EngineOf<Real>::answer_scan(const ScanCall& call, void* data, NearCallback*
   frame.looped = call.looped;
   frame.origin = record.get();
   const VerifiedCall<Real> verified{"dSpaceCollide2", *record, options_.policy, false};
-  Replayer<Real> replayer{ode_, user_tests_, data, callback};
+  Replayer<Real> replayer{reader_, data, callback};
   if (!run(frame, verifies ? &verified : nullptr, replayer,
            [&] { loop(call, first, frame, replayer, pairs); })) {
     return false;

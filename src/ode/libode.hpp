@@ -47,8 +47,14 @@ template <class Real, class Find>
   take("dSimpleSpaceCreate", ode.simple_space_create);
   take("dCreateSphere", ode.create_sphere);
   take("dGeomSetPosition", ode.geom_set_position);
+  take("dGeomSetOffsetPosition", ode.geom_set_offset_position);
+  take("dGeomSetBody", ode.geom_set_body);
   take("dGeomSetCategoryBits", ode.geom_set_category_bits);
+  take("dGeomSetCollideBits", ode.geom_set_collide_bits);
   take("dGeomDestroy", ode.geom_destroy);
+  take("dWorldCreate", ode.world_create);
+  take("dWorldDestroy", ode.world_destroy);
+  take("dBodyCreate", ode.body_create);
   take("dGetDebugHandler", ode.get_debug_handler);
   take("dSetDebugHandler", ode.set_debug_handler);
   return complete;

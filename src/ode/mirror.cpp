@@ -12,27 +12,6 @@ constexpr std::size_t kPrefetchDistance = 12;
 /// Of libode's geom objects: what the enumeration and the queries below touch.
 constexpr std::size_t kGeomLines = 3;
 
-/// libode excludes geoms of size zero from its spaces; nobody may ask it for that flag.
-template <class Real>
-bool is_zero_sized(const LibodeOf<Real>& ode, dxGeom* geom, int number) {
-  Real size[4] = {};
-  switch (number) {
-    case geom_class::kSphere:
-      return ode.sphere_get_radius(geom) == 0;
-    case geom_class::kBox:
-      ode.box_get_lengths(geom, size);
-      return size[0] == 0 || size[1] == 0 || size[2] == 0;
-    case geom_class::kCapsule:
-      ode.capsule_get_params(geom, &size[0], &size[1]);
-      return size[0] == 0;
-    case geom_class::kCylinder:
-      ode.cylinder_get_params(geom, &size[0], &size[1]);
-      return size[0] == 0 || size[1] == 0;
-    default:
-      return false;
-  }
-}
-
 template <class Real>
 std::uint8_t traits_of(const BoundsBox<Real>& box) {
   std::uint8_t traits = 0;
@@ -64,17 +43,7 @@ class KnownGeoms {
   bool bits_[kPlaces] = {};
 };
 
-/// Whether the class is one of the user's that asks about each pair.
-bool asks(int number, const UserTests& tests) {
-  return number >= geom_class::kFirstUser && tests[number - geom_class::kFirstUser] != nullptr;
-}
-
 }  // namespace
-
-template <class Real>
-bool takes_part(const LibodeOf<Real>& ode, dxGeom* geom) {
-  return ode.geom_is_enabled(geom) != 0 && !is_zero_sized(ode, geom, ode.geom_get_class(geom));
-}
 
 template <class Real>
 void Mirror<Real>::drop_filters() {
@@ -101,25 +70,24 @@ void Mirror<Real>::clear() {
 
 /// With infinities there would be NaNs, whose bits no two colliders agree on.
 template <class Real>
-bool Mirror<Real>::read_sphere(const LibodeOf<Real>& ode, dxGeom* geom, std::uint32_t slot) {
-  const Real* position = ode.geom_get_position(geom);
+bool Mirror<Real>::read_sphere(const GeomReader<Real>& reader, dxGeom* geom, std::uint32_t slot) {
+  const Real* position = reader.position_of(geom);
   positions_[slot] = position;
-  const SphereOf<Real> s{position[0], position[1], position[2], ode.sphere_get_radius(geom)};
+  const SphereOf<Real> s{position[0], position[1], position[2], reader.radius_of(geom)};
   spheres[slot] = s;
   return std::isfinite(s.x) && std::isfinite(s.y) && std::isfinite(s.z) && std::isfinite(s.r);
 }
 
 template <class Real>
-void Mirror<Real>::append_for_contacts(const LibodeOf<Real>& ode, dxGeom* geom,
-                                       const UserTests& tests) {
+void Mirror<Real>::append_for_contacts(const GeomReader<Real>& reader, dxGeom* geom) {
   const std::uint32_t slot = size();
   resize(std::size_t{slot} + 1);
   geoms[slot] = geom;
   spheres[slot] = {};
   positions_[slot] = reinterpret_cast<const Real*>(geom);
-  const int number = ode.geom_get_class(geom);
-  traits[slot] = asks(number, tests) ? kHasAabbTest : 0;
-  if (number == geom_class::kSphere && read_sphere(ode, geom, slot)) traits[slot] |= kIsSphere;
+  const int number = reader.class_of(geom);
+  traits[slot] = reader.asks(number) ? kHasAabbTest : 0;
+  if (number == geom_class::kSphere && read_sphere(reader, geom, slot)) traits[slot] |= kIsSphere;
   all_traits |= traits[slot];
 }
 
@@ -136,35 +104,36 @@ void Mirror<Real>::resize(std::size_t count) {
 }
 
 template <class Real>
-void Mirror<Real>::read_geom(const LibodeOf<Real>& ode, dxGeom* geom, int number,
-                             const UserTests& tests, std::uint32_t slot) {
+void Mirror<Real>::read_geom(const GeomReader<Real>& reader, dxGeom* geom, int number,
+                             std::uint32_t slot) {
   geoms[slot] = geom;
-  ode.geom_get_aabb(geom, bounds[slot].v);
+  reader.read_bounds(geom, bounds[slot]);
   std::uint8_t bits = traits_of(bounds[slot]);
-  spheres[slot] = {};
-  positions_[slot] = reinterpret_cast<const Real*>(geom);
   if (number == geom_class::kSphere) {
-    if (read_sphere(ode, geom, slot)) bits |= kIsSphere;
-  } else if (number != geom_class::kPlane && !is_space_class(number)) {
-    positions_[slot] = ode.geom_get_position(geom);
+    if (read_sphere(reader, geom, slot)) bits |= kIsSphere;
+  } else {
+    spheres[slot] = {};
+    const bool has_pose = number != geom_class::kPlane && !is_space_class(number);
+    positions_[slot] = has_pose ? reader.position_of(geom) : reinterpret_cast<const Real*>(geom);
   }
-  if (asks(number, tests)) bits |= kHasAabbTest;
-  bodies[slot] = ode.geom_get_body(geom);
-  category[slot] = ode.geom_get_category_bits(geom);
-  collide[slot] = ode.geom_get_collide_bits(geom);
+  if (reader.asks(number)) bits |= kHasAabbTest;
+  bodies[slot] = reader.body_of(geom);
+  category[slot] = reader.category_of(geom);
+  collide[slot] = reader.collide_of(geom);
   traits[slot] = bits;
   all_traits |= bits;
   only_spheres = only_spheres && (bits & kIsSphere) != 0;
 }
 
 template <class Real>
-void Mirror<Real>::read_all(const LibodeOf<Real>& ode, dxSpace* space, int count,
-                            const UserTests& tests) {
+void Mirror<Real>::read(const GeomReader<Real>& reader, dxSpace* space, int count) {
+  reader.ode.space_clean(space);
   resize(static_cast<std::size_t>(count));
   is_packed_ = was_asked_ = false;
   std::uint32_t filled = 0;
   all_traits = 0;
   only_spheres = true;
+  has_stale = false;
   unsigned long all_category = ~0UL, all_collide = ~0UL;
   for (int index = 0; index < count; ++index) {
     // The geoms of the last frame in its order are a good guess at those to come.
@@ -176,31 +145,17 @@ void Mirror<Real>::read_all(const LibodeOf<Real>& ode, dxSpace* space, int count
       }
       __builtin_prefetch(positions_[ahead]);
     }
-    dxGeom* const geom = ode.space_get_geom(space, index);
-    if (ode.geom_is_enabled(geom) == 0) continue;
-    const int number = ode.geom_get_class(geom);
-    if (is_zero_sized(ode, geom, number)) continue;
-    read_geom(ode, geom, number, tests, filled);
+    dxGeom* const geom = reader.ode.space_get_geom(space, index);
+    const int number = reader.class_of(geom);
+    if (!reader.takes_part(geom, number)) continue;
+    has_stale = has_stale || reader.is_stale(geom);
+    read_geom(reader, geom, number, filled);
     all_category &= category[filled];
     all_collide &= collide[filled];
     ++filled;
   }
   resize(filled);
   uniform_bits = (all_category & all_collide) != 0;
-}
-
-template <class Real>
-void Mirror<Real>::read(const LibodeOf<Real>& ode, dxSpace* space, int count,
-                        const UserTests& tests) {
-  read_all(ode, space, count, tests);
-  ode.space_clean(space);
-}
-
-template <class Real>
-void Mirror<Real>::clean_and_read(const LibodeOf<Real>& ode, dxSpace* space, int count,
-                                  const UserTests& tests) {
-  ode.space_clean(space);
-  read_all(ode, space, count, tests);
 }
 
 /// Slots of geoms among `moved`. Ends when all are found, which is soon in a list whose first geoms
@@ -216,12 +171,10 @@ void Mirror<Real>::find_vacated(std::span<dxGeom* const> moved, SlotChange& chan
 
 /// Fills the fresh slots from `arrived_`. False when these are not the geoms that left.
 template <class Real>
-bool Mirror<Real>::read_fresh(const LibodeOf<Real>& ode, const UserTests& tests,
-                              const SlotChange& change) {
+bool Mirror<Real>::read_fresh(const GeomReader<Real>& reader, const SlotChange& change) {
   for (std::size_t k = 0; k < arrived_.size(); ++k) {
     dxGeom* const geom = arrived_[k];
-    const int number = ode.geom_get_class(geom);
-    read_geom(ode, geom, number, tests, change.fresh[k]);
+    read_geom(reader, geom, reader.class_of(geom), change.fresh[k]);
   }
   std::sort(arrived_.begin(), arrived_.end());
   std::sort(left_.begin(), left_.end());
@@ -229,15 +182,15 @@ bool Mirror<Real>::read_fresh(const LibodeOf<Real>& ode, const UserTests& tests,
 }
 
 template <class Real>
-bool Mirror<Real>::update_list(const LibodeOf<Real>& ode, dxSpace* space,
-                               std::span<dxGeom* const> moved, const UserTests& tests,
-                               SlotChange& change) {
+bool Mirror<Real>::update_list(const GeomReader<Real>& reader, dxSpace* space,
+                               std::span<dxGeom* const> moved, SlotChange& change) {
   if ((all_traits & (kIsNan | kIsInverted)) != 0) return false;
+  reader.ode.space_clean(space);
   arrived_.clear();
   for (std::size_t k = 0; k < moved.size(); ++k) {
-    dxGeom* const geom = ode.space_get_geom(space, static_cast<int>(k));
+    dxGeom* const geom = reader.ode.space_get_geom(space, static_cast<int>(k));
     if (!std::binary_search(moved.begin(), moved.end(), geom)) return false;
-    if (takes_part(ode, geom)) arrived_.push_back(geom);
+    if (reader.takes_part(geom, reader.class_of(geom))) arrived_.push_back(geom);
   }
   find_vacated(moved, change);
   if (change.vacated.size() != arrived_.size()) return false;
@@ -252,19 +205,17 @@ bool Mirror<Real>::update_list(const LibodeOf<Real>& ode, dxSpace* space,
   change.apply_to(collide);
   change.apply_to(traits);
   change.apply_to(positions_);
-  const bool complete = read_fresh(ode, tests, change);
-  ode.space_clean(space);
+  const bool complete = read_fresh(reader, change);
   if (is_packed_) packed_.repack(bounds, 0, change.new_slots.size());
   return complete;
 }
 
 template <class Real>
-bool Mirror<Real>::clean_and_update_array(const LibodeOf<Real>& ode, dxSpace* space,
-                                          std::span<dxGeom* const> moved, const UserTests& tests,
-                                          SlotChange& change) {
-  const auto count = static_cast<std::uint32_t>(ode.space_get_num_geoms(space));
+bool Mirror<Real>::update_array(const GeomReader<Real>& reader, dxSpace* space,
+                                std::span<dxGeom* const> moved, SlotChange& change) {
+  const auto count = static_cast<std::uint32_t>(reader.ode.space_get_num_geoms(space));
   if (size() != count || (all_traits & (kIsNan | kIsInverted)) != 0) return false;
-  ode.space_clean(space);
+  reader.ode.space_clean(space);
   find_vacated(moved, change);
   if (change.vacated.size() != moved.size()) return false;
   // Whatever is written to libode's array is written to a place that one of these had, or to its
@@ -277,12 +228,12 @@ bool Mirror<Real>::clean_and_update_array(const LibodeOf<Real>& ode, dxSpace* sp
   arrived_.clear();
   left_.clear();
   for (const std::uint32_t slot : change.fresh) {
-    dxGeom* const geom = ode.space_get_geom(space, static_cast<int>(slot));
-    if (!takes_part(ode, geom)) return false;
+    dxGeom* const geom = reader.ode.space_get_geom(space, static_cast<int>(slot));
+    if (!reader.takes_part(geom, reader.class_of(geom))) return false;
     arrived_.push_back(geom);
     left_.push_back(geoms[slot]);
   }
-  const bool complete = read_fresh(ode, tests, change);
+  const bool complete = read_fresh(reader, change);
   if (is_packed_) {
     for (const std::uint32_t slot : change.fresh) {
       packed_.repack(bounds, slot, std::size_t{slot} + 1);
@@ -304,8 +255,6 @@ const PackedBounds<Real>* Mirror<Real>::packed_if_asked_again() {
   return nullptr;
 }
 
-template bool takes_part(const LibodeOf<float>&, dxGeom*);
-template bool takes_part(const LibodeOf<double>&, dxGeom*);
 template class Mirror<float>;
 template class Mirror<double>;
 

@@ -12,6 +12,7 @@
 
 #include "harpoon/records.hpp"
 #include "ode/bounds_box.hpp"
+#include "ode/geom_reader.hpp"
 #include "ode/libode.hpp"
 #include "ode/packed_bounds.hpp"
 #include "ode/slot_change.hpp"
@@ -30,34 +31,23 @@ inline constexpr std::uint8_t kIsInverted = 4;
 /// A user class that wants to be asked about each pair.
 inline constexpr std::uint8_t kHasAabbTest = 8;
 
-/// Which of the user classes ask (`dGeomClass::aabb_test`); null where one does not.
-using UserTests = AabbTest * [geom_class::kUserClasses];
-
-/// Whether libode's walks do not pass the geom over: it is enabled and has a size.
-template <class Real>
-[[nodiscard]] bool takes_part(const LibodeOf<Real>& ode, dxGeom* geom);
-
 template <class Real>
 class Mirror {
  public:
-  /// Reads all enabled geoms of the space, `count` of them at most, and cleans the space. Throws
+  /// Cleans the space and reads all geoms of it that take part, `count` of them at most. Throws
   /// std::bad_alloc; the mirror is then empty.
-  void read(const LibodeOf<Real>& ode, dxSpace* space, int count, const UserTests& tests);
-  /// The same for a space that changes the order of its geoms when it is cleaned.
-  void clean_and_read(const LibodeOf<Real>& ode, dxSpace* space, int count, const UserTests& tests);
+  void read(const GeomReader<Real>& reader, dxSpace* space, int count);
   /// Brings the mirror of a simple or hash space up to date, of which nothing has changed since it
   /// was read but the bounds and poses of `moved` (ascending, none twice), and cleans the space.
   /// libode has put those first in its list. False when that is not what is found there, or when a
   /// bound was NaN or inverted: the mirror then has no meaning. O(moved + slots before the last of
   /// them). Throws std::bad_alloc; the same.
-  [[nodiscard]] bool update_list(const LibodeOf<Real>& ode, dxSpace* space,
-                                 std::span<dxGeom* const> moved, const UserTests& tests,
-                                 SlotChange& change);
+  [[nodiscard]] bool update_list(const GeomReader<Real>& reader, dxSpace* space,
+                                 std::span<dxGeom* const> moved, SlotChange& change);
   /// The same for a SAP space, all of whose geoms must be enabled. libode puts its last geom in the
   /// place of one that moves, and the moved ones at the end.
-  [[nodiscard]] bool clean_and_update_array(const LibodeOf<Real>& ode, dxSpace* space,
-                                            std::span<dxGeom* const> moved, const UserTests& tests,
-                                            SlotChange& change);
+  [[nodiscard]] bool update_array(const GeomReader<Real>& reader, dxSpace* space,
+                                  std::span<dxGeom* const> moved, SlotChange& change);
   void clear();
   /// A geom is gone: its place holds null until the next reading.
   void forget(const dxGeom* geom) {
@@ -67,7 +57,7 @@ class Mirror {
   /// Lets every pair pass libode's filters. Throws std::bad_alloc.
   void drop_filters();
   /// Adds a geom with what a replay of known pairs needs only: identity, sphere, whether it asks.
-  void append_for_contacts(const LibodeOf<Real>& ode, dxGeom* geom, const UserTests& tests);
+  void append_for_contacts(const GeomReader<Real>& reader, dxGeom* geom);
 
   [[nodiscard]] std::uint32_t size() const { return static_cast<std::uint32_t>(geoms.size()); }
 
@@ -115,16 +105,15 @@ class Mirror {
 
   bool uniform_bits = true;   ///< every pair passes the category and collide bits
   bool only_spheres = false;  ///< every geom is one
+  /// libode has old bounds of a geom, which may become new at any moment.
+  bool has_stale = false;
 
  private:
   void resize(std::size_t count);
-  void read_geom(const LibodeOf<Real>& ode, dxGeom* geom, int number, const UserTests& tests,
-                 std::uint32_t slot);
-  bool read_sphere(const LibodeOf<Real>& ode, dxGeom* geom, std::uint32_t slot);
-  void read_all(const LibodeOf<Real>& ode, dxSpace* space, int count, const UserTests& tests);
+  void read_geom(const GeomReader<Real>& reader, dxGeom* geom, int number, std::uint32_t slot);
+  bool read_sphere(const GeomReader<Real>& reader, dxGeom* geom, std::uint32_t slot);
   void find_vacated(std::span<dxGeom* const> moved, SlotChange& change) const;
-  [[nodiscard]] bool read_fresh(const LibodeOf<Real>& ode, const UserTests& tests,
-                                const SlotChange& change);
+  [[nodiscard]] bool read_fresh(const GeomReader<Real>& reader, const SlotChange& change);
 
   std::vector<const Real*>
       positions_;                 ///< where poses are, as far as is known: hints for prefetching

@@ -11,13 +11,15 @@ namespace harpoon::ode {
 
 template <class Real>
 void Refresher<Real>::note_changes(Record& record) const {
-  const int count = ode.space_get_num_geoms(record.space);
+  const int count = reader.ode.space_get_num_geoms(record.space);
   const bool reported = record.changed.load(std::memory_order_relaxed) &&
                         record.changed.exchange(false, std::memory_order_relaxed);
-  const bool widely = record.changed_widely.load(std::memory_order_relaxed) &&
-                      record.changed_widely.exchange(false, std::memory_order_relaxed);
+  const bool told_widely = record.changed_widely.load(std::memory_order_relaxed) &&
+                           record.changed_widely.exchange(false, std::memory_order_relaxed);
+  // Who asks for the bounds of a geom that libode has missed makes them new, and nobody tells.
+  const bool widely = told_widely || (record.mirror_valid && record.mirror.has_stale);
   const bool is_told = options.changes_are_reported && count == record.count;
-  record.was_unchanged = !reported && is_told;
+  record.was_unchanged = !reported && !widely && is_told;
   if (record.was_unchanged) return;
   record.count = count;
   record.recorded_valid = false;
@@ -42,10 +44,10 @@ void Refresher<Real>::follow_moved(Record& record, bool in_collide) const {
   const bool with_pairs = record.pairs_valid && (is_sap ? in_collide : record.pairs_used);
   record.mirror_valid = record.pairs_valid = false;
   record.contacts.reset();
-  const bool follows = is_sap ? record.mirror.clean_and_update_array(
-                                    ode, record.space, record.moved, user_tests, record.change)
-                              : record.mirror.update_list(ode, record.space, record.moved,
-                                                          user_tests, record.change);
+  Mirror<Real>& mirror = record.mirror;
+  const bool follows = is_sap
+                           ? mirror.update_array(reader, record.space, record.moved, record.change)
+                           : mirror.update_list(reader, record.space, record.moved, record.change);
   record.moved.clear();
   if (!follows) return;
   record.mirror_valid = true;
@@ -63,7 +65,7 @@ bool Refresher<Real>::update_pairs(Record& record) const {
     return search.update_sap(record.mirror, record.change, *record.sap, record.pairs);
   }
   int min_level = 0, max_level = 0;
-  ode.hash_space_get_levels(record.space, &min_level, &max_level);
+  reader.ode.hash_space_get_levels(record.space, &min_level, &max_level);
   const bool done = search.update_hash(record.mirror, record.change, min_level, max_level,
                                        options.policy, record.found, record.pairs);
   if (done) Statistics::add(statistics.missed_by_stock, record.found.missed_by_stock);
@@ -78,11 +80,7 @@ void Refresher<Real>::refresh_mirror(Record& record, bool in_collide) const {
   record.expect_moves();
   // A recorded sequence has its own numbers.
   record.pairs_valid = false;
-  if (record.kind == geom_class::kSapSpace) {
-    record.mirror.clean_and_read(ode, record.space, record.count, user_tests);
-  } else {
-    record.mirror.read(ode, record.space, record.count, user_tests);
-  }
+  record.mirror.read(reader, record.space, record.count);
   record.mirror_valid = true;
 }
 
@@ -124,7 +122,7 @@ Result<typename PairSearch<Real>::Found> Refresher<Real>::find_pairs(Record& rec
     return record.search->find_sap(record.mirror, *record.sap, record.pairs);
   }
   int min_level = 0, max_level = 0;
-  ode.hash_space_get_levels(record.space, &min_level, &max_level);
+  reader.ode.hash_space_get_levels(record.space, &min_level, &max_level);
   return record.search->find_hash(record.mirror, min_level, max_level, options.policy,
                                   record.pairs);
 }

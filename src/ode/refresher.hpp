@@ -18,9 +18,8 @@ template <class Real>
 struct Refresher {
   using Record = SpaceRecord<Real>;
 
-  const LibodeOf<Real>& ode;
+  const GeomReader<Real>& reader;
   const Options& options;
-  const UserTests& user_tests;
   const LogCallback& log;
   Statistics& statistics;
 

@@ -30,16 +30,16 @@ bool Replayer<Real>::is_due(Frame<Real>& frame, GeomPair pair) const {
     case LiveCheck::none:
       return true;
     case LiveCheck::first:
-      return takes_part(ode, pair.o1);
+      return takes_part(pair.o1);
     case LiveCheck::second:
-      return takes_part(ode, pair.o2);
+      return takes_part(pair.o2);
     case LiveCheck::rows:
       // A row that had begun when the first geom was toggled goes on.
       if (pair.o1 != (frame.row != nullptr ? frame.row : frame.o1)) {
-        frame.row_is_enabled = takes_part(ode, pair.o1);
+        frame.row_is_enabled = takes_part(pair.o1);
       }
       frame.row = pair.o1;
-      return frame.row_is_enabled && takes_part(ode, pair.o2);
+      return frame.row_is_enabled && takes_part(pair.o2);
   }
   return true;
 }
@@ -50,9 +50,9 @@ bool Replayer<Real>::is_near(const SpaceRecord<Real>& record, IndexPair pair) co
   const Mirror<Real>& mirror = record.mirror;
   const auto says_no = [&](std::uint32_t geom, std::uint32_t other) {
     if ((mirror.traits[geom] & kHasAabbTest) == 0) return false;
-    const int number = ode.geom_get_class(mirror.geoms[geom]) - geom_class::kFirstUser;
+    const int number = reader.class_of(mirror.geoms[geom]) - geom_class::kFirstUser;
     BoundsBox<Real> bounds = mirror.bounds[other];
-    return tests[number](mirror.geoms[geom], mirror.geoms[other], bounds.v) == 0;
+    return reader.tests[number](mirror.geoms[geom], mirror.geoms[other], bounds.v) == 0;
   };
   return !says_no(pair.g1, pair.g2) && !says_no(pair.g2, pair.g1);
 }
@@ -91,12 +91,12 @@ void Replayer<Real>::filter_rest(Frame<Real>& frame) const {
     dxGeom* const o1 = record.mirror.geoms[pair.g1];
     dxGeom* const o2 = record.mirror.geoms[pair.g2];
     if (o1 == nullptr || o2 == nullptr) continue;
-    if (dxBody* const body = ode.geom_get_body(o1);
-        body != nullptr && body == ode.geom_get_body(o2)) {
+    if (const dxBody* const body = reader.body_of(o1);
+        body != nullptr && body == reader.body_of(o2)) {
       continue;
     }
-    if (((ode.geom_get_category_bits(o1) & ode.geom_get_collide_bits(o2)) |
-         (ode.geom_get_category_bits(o2) & ode.geom_get_collide_bits(o1))) == 0) {
+    if (((reader.category_of(o1) & reader.collide_of(o2)) |
+         (reader.category_of(o2) & reader.collide_of(o1))) == 0) {
       continue;
     }
     if ((record.mirror.all_traits & kHasAabbTest) != 0 && !is_near(record, pair)) continue;

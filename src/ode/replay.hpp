@@ -18,8 +18,7 @@ namespace harpoon::ode {
 
 template <class Real>
 struct Replayer {
-  const LibodeOf<Real>& ode;
-  const UserTests& tests;
+  const GeomReader<Real>& reader;
   void* data;
   NearCallback* callback;
   Verifier<Real>* verifier = nullptr;  ///< sees every pair before the callback does
@@ -34,6 +33,9 @@ struct Replayer {
   void replay_all(Frame<Real>& frame, std::size_t count, const PairAt& pair_at,
                   const IsNear& is_near) const;
   void deliver(Frame<Real>& frame, GeomPair pair) const;
+  [[nodiscard]] bool takes_part(dxGeom* geom) const {
+    return reader.takes_part(geom, reader.class_of(geom));
+  }
   [[nodiscard]] bool is_due(Frame<Real>& frame, GeomPair pair) const;
   [[nodiscard]] bool is_near(const SpaceRecord<Real>& record, IndexPair pair) const;
   [[nodiscard]] bool goes_on_otherwise(Frame<Real>& frame) const;

@@ -494,6 +494,10 @@ bool EngineOf<Real>::scan(const ScanCall& call, dxGeom* probe, std::vector<GeomP
     return false;
   }
   if ((record.mirror.all_traits & kHasAabbTest) != 0) return false;
+  if (record.mirror.has_stale) {
+    record.note_handover();
+    return false;
+  }
   append_scan(record.mirror, Probe<Real>(ode_, probe), call.scanned_first, pairs);
   return true;
 }

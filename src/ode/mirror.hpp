@@ -105,7 +105,8 @@ class Mirror {
 
   bool uniform_bits = true;   ///< every pair passes the category and collide bits
   bool only_spheres = false;  ///< every geom is one
-  /// libode has old bounds of a geom, which may become new at any moment.
+  /// libode has old bounds of a geom, which become new when anybody asks for them: what it finds
+  /// hangs on that, so it is libode's to find.
   bool has_stale = false;
 
  private:

@@ -16,7 +16,7 @@ void Refresher<Real>::note_changes(Record& record) const {
                         record.changed.exchange(false, std::memory_order_relaxed);
   const bool told_widely = record.changed_widely.load(std::memory_order_relaxed) &&
                            record.changed_widely.exchange(false, std::memory_order_relaxed);
-  // Who asks for the bounds of a geom that libode has missed makes them new, and nobody tells.
+  // A geom that libode has missed is missed until its bounds are asked for, and nobody tells.
   const bool widely = told_widely || (record.mirror_valid && record.mirror.has_stale);
   const bool is_told = options.changes_are_reported && count == record.count;
   record.was_unchanged = !reported && !widely && is_told;
@@ -132,6 +132,10 @@ bool Refresher<Real>::refresh_pairs(Record& record) const {
   Statistics::Counter* found_by = &statistics.unchanged;
   if (!record.moved.empty()) found_by = &statistics.updated;
   refresh_mirror(record, true);
+  if (record.mirror.has_stale && record.kind != geom_class::kSapSpace) {
+    record.note_handover();
+    return false;
+  }
   if (record.pairs_valid) {
     Statistics::add(*found_by, 1);
     return true;

@@ -141,6 +141,7 @@ class EngineOf final : public Engine {
   [[nodiscard]] int min_geoms(int kind) const;
   Record* find_or_make(dxSpace* space, int kind);
   Record* put(dxSpace* space, std::shared_ptr<Record> record);
+  void begin_to_listen();
   void expect_frames();
   [[nodiscard]] Record* record_to_collide(dxSpace* space, int kind);
   [[nodiscard]] bool prepare(Record& record);
@@ -205,6 +206,7 @@ class EngineOf final : public Engine {
   const Options& options_;
   Statistics statistics_;
   SpaceTable<Record> table_;
+  std::atomic<bool> listens_{false};
   std::atomic<bool> expects_frames_{false};
   std::atomic<bool> locks_are_checked_{false};
   std::atomic<std::uint64_t> looks_{1};  ///< how often what is known of spaces has been renewed
@@ -253,8 +255,19 @@ int EngineOf<Real>::min_geoms(int kind) const {
   }
 }
 
+/// From the first space on that is not libode's alone, changes are to be heard of. Throws
+/// std::bad_alloc.
+template <class Real>
+void EngineOf<Real>::begin_to_listen() {
+  if (listens_.load(std::memory_order_acquire)) return;
+  std::call_once(layout_is_found_, [this] { layout_ = find_geom_layout(ode_); });
+  if (parts_.before_first_space) parts_.before_first_space();
+  listens_.store(true, std::memory_order_release);
+}
+
 template <class Real>
 SpaceRecord<Real>* EngineOf<Real>::find_or_make(dxSpace* space, int kind) {
+  begin_to_listen();
   Record* record = table_.empty() ? nullptr : table_.find(space);
   if (record != nullptr && record->kind == kind) return record;
   return put(space, std::make_shared<Record>(space, kind));
@@ -263,8 +276,6 @@ SpaceRecord<Real>* EngineOf<Real>::find_or_make(dxSpace* space, int kind) {
 template <class Real>
 SpaceRecord<Real>* EngineOf<Real>::put(dxSpace* space, std::shared_ptr<Record> record) {
   Statistics::add(statistics_.spaces, 1);
-  std::call_once(layout_is_found_, [this] { layout_ = find_geom_layout(ode_); });
-  if (table_.empty() && parts_.before_first_space) parts_.before_first_space();
   count_look();
   return table_.put(space, std::move(record));
 }
@@ -351,7 +362,7 @@ bool EngineOf<Real>::answer_in_order(Record& record, void* data, NearCallback* c
   const Entry entry(record);
   if (!entry.entered()) return false;
   // A stock SAP space does not know what it was not asked.
-  if (record.kind != geom_class::kSapSpace && record.leaves_call_to_stock()) return false;
+  if (!record.sap_is_ours && record.leaves_call_to_stock()) return false;
   if (entry.alone()) {
     try {
       if (!prepare(record)) return false;
@@ -725,6 +736,7 @@ int EngineOf<Real>::collide(dxGeom* o1, dxGeom* o2, int flags, void* contact, in
 /// known to have changed beyond counting: then nothing is to be noted until the space is looked at.
 template <class Real>
 void EngineOf<Real>::moved(dxGeom* geom) {
+  if (!listens_.load(std::memory_order_relaxed)) return;
   const Settled& settled = last_settled();
   dxSpace* const home = ode_.geom_get_space(geom);
   if (settled.space == home && settled.looks == looks_.load(std::memory_order_relaxed) &&

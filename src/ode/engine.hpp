@@ -66,8 +66,8 @@ struct EngineParts {
   /// Under `Options::verify`: called with the first difference; should not return. The frame is
   /// that of the callback sequence, null for a contact or a quadtree.
   Differs differs;
-  /// Called before a space becomes known to an engine that knows none: until then it need not hear
-  /// of any `moved`. May be empty.
+  /// Called before the first space is looked at: until then the engine need not hear of any
+  /// `moved`. May be empty.
   std::function<void()> before_first_space = {};
   /// Called before callbacks are first called for pairs of the engine's own: until then it need not
   /// hear of any `collide`. May be empty.

@@ -14,6 +14,8 @@ constexpr std::size_t kGeomLines = 3;
 
 template <class Real>
 std::uint8_t traits_of(const BoundsBox<Real>& box) {
+  // Mostly all is well, which no NaN compares as.
+  if (box.v[0] <= box.v[1] && box.v[2] <= box.v[3] && box.v[4] <= box.v[5]) return 0;
   std::uint8_t traits = 0;
   for (int low = 0; low < 6; low += 2) {
     if (std::isnan(box.v[low]) || std::isnan(box.v[low + 1])) traits |= kIsNan;
@@ -68,15 +70,37 @@ void Mirror<Real>::clear() {
   only_spheres = false;
 }
 
-/// With infinities there would be NaNs, whose bits no two colliders agree on.
 template <class Real>
-bool Mirror<Real>::read_sphere(const GeomReader<Real>& reader, dxGeom* geom, std::uint32_t slot) {
-  const Real* position = reader.position_of(geom);
-  positions_[slot] = position;
-  const SphereOf<Real> s{position[0], position[1], position[2], reader.radius_of(geom)};
-  spheres[slot] = s;
-  return std::isfinite(s.x) && std::isfinite(s.y) && std::isfinite(s.z) && std::isfinite(s.r);
+struct Mirror<Real>::Slots {
+  dxGeom** geoms;
+  BoundsBox<Real>* bounds;
+  SphereOf<Real>* spheres;
+  const dxBody** bodies;
+  unsigned long *category, *collide;
+  std::uint8_t* traits;
+  const Real** positions;
+};
+
+template <class Real>
+typename Mirror<Real>::Slots Mirror<Real>::slots() {
+  return {geoms.data(),    bounds.data(),  spheres.data(), bodies.data(),
+          category.data(), collide.data(), traits.data(),  positions_.data()};
 }
+
+namespace {
+
+/// False when a number is NaN or infinite: there would be NaNs, whose bits no two colliders agree
+/// on.
+template <class Real>
+bool read_sphere(const GeomReader<Real>& reader, dxGeom* geom, const Real* position,
+                 SphereOf<Real>& sphere) {
+  const SphereOf<Real> s{position[0], position[1], position[2], reader.radius_of(geom)};
+  sphere = s;
+  // What is not finite gives NaN, less itself.
+  return (s.x - s.x) + (s.y - s.y) + (s.z - s.z) + (s.r - s.r) == 0;
+}
+
+}  // namespace
 
 template <class Real>
 void Mirror<Real>::append_for_contacts(const GeomReader<Real>& reader, dxGeom* geom) {
@@ -87,7 +111,10 @@ void Mirror<Real>::append_for_contacts(const GeomReader<Real>& reader, dxGeom* g
   positions_[slot] = reinterpret_cast<const Real*>(geom);
   const int number = reader.class_of(geom);
   traits[slot] = reader.asks(number) ? kHasAabbTest : 0;
-  if (number == geom_class::kSphere && read_sphere(reader, geom, slot)) traits[slot] |= kIsSphere;
+  if (number == geom_class::kSphere) {
+    positions_[slot] = reader.position_of(geom);
+    if (read_sphere(reader, geom, positions_[slot], spheres[slot])) traits[slot] |= kIsSphere;
+  }
   all_traits |= traits[slot];
 }
 
@@ -104,25 +131,27 @@ void Mirror<Real>::resize(std::size_t count) {
 }
 
 template <class Real>
-void Mirror<Real>::read_geom(const GeomReader<Real>& reader, dxGeom* geom, int number,
-                             std::uint32_t slot) {
-  geoms[slot] = geom;
-  reader.read_bounds(geom, bounds[slot]);
-  std::uint8_t bits = traits_of(bounds[slot]);
+inline std::uint8_t Mirror<Real>::read_geom(const GeomReader<Real>& reader, dxGeom* geom,
+                                            int number, const Slots& slots, std::size_t slot) {
+  slots.geoms[slot] = geom;
+  reader.read_bounds(geom, slots.bounds[slot]);
+  std::uint8_t bits = traits_of(slots.bounds[slot]);
   if (number == geom_class::kSphere) {
-    if (read_sphere(reader, geom, slot)) bits |= kIsSphere;
+    const Real* const position = reader.position_of(geom);
+    slots.positions[slot] = position;
+    if (read_sphere(reader, geom, position, slots.spheres[slot])) bits |= kIsSphere;
   } else {
-    spheres[slot] = {};
     const bool has_pose = number != geom_class::kPlane && !is_space_class(number);
-    positions_[slot] = has_pose ? reader.position_of(geom) : reinterpret_cast<const Real*>(geom);
+    slots.positions[slot] =
+        has_pose ? reader.position_of(geom) : reinterpret_cast<const Real*>(geom);
+    slots.spheres[slot] = {};
   }
   if (reader.asks(number)) bits |= kHasAabbTest;
-  bodies[slot] = reader.body_of(geom);
-  category[slot] = reader.category_of(geom);
-  collide[slot] = reader.collide_of(geom);
-  traits[slot] = bits;
-  all_traits |= bits;
-  only_spheres = only_spheres && (bits & kIsSphere) != 0;
+  slots.bodies[slot] = reader.body_of(geom);
+  slots.category[slot] = reader.category_of(geom);
+  slots.collide[slot] = reader.collide_of(geom);
+  slots.traits[slot] = bits;
+  return bits;
 }
 
 template <class Real>
@@ -131,30 +160,36 @@ void Mirror<Real>::read(const GeomReader<Real>& reader, dxSpace* space, int coun
   resize(static_cast<std::size_t>(count));
   is_packed_ = was_asked_ = false;
   std::uint32_t filled = 0;
-  all_traits = 0;
-  only_spheres = true;
-  has_stale = false;
+  std::uint8_t any_traits = 0, common_traits = 0xFF;
+  bool is_stale = false;
   unsigned long all_category = ~0UL, all_collide = ~0UL;
+  const Slots to = slots();
+  const auto size_before = static_cast<std::size_t>(count);
   for (int index = 0; index < count; ++index) {
     // The geoms of the last frame in its order are a good guess at those to come.
     if (const std::size_t ahead = static_cast<std::size_t>(index) + kPrefetchDistance;
-        ahead < geoms.size() && geoms[ahead] != nullptr) {
-      const auto* bytes = reinterpret_cast<const char*>(geoms[ahead]);
+        ahead < size_before && to.geoms[ahead] != nullptr) {
+      const auto* bytes = reinterpret_cast<const char*>(to.geoms[ahead]);
       for (std::size_t line = 0; line < kGeomLines; ++line) {
         __builtin_prefetch(bytes + line * kCacheLineBytes);
       }
-      __builtin_prefetch(positions_[ahead]);
+      __builtin_prefetch(to.positions[ahead]);
     }
     dxGeom* const geom = reader.ode.space_get_geom(space, index);
     const int number = reader.class_of(geom);
     if (!reader.takes_part(geom, number)) continue;
-    has_stale = has_stale || reader.is_stale(geom);
-    read_geom(reader, geom, number, filled);
-    all_category &= category[filled];
-    all_collide &= collide[filled];
+    is_stale |= reader.is_stale(geom);
+    const std::uint8_t bits = read_geom(reader, geom, number, to, filled);
+    any_traits |= bits;
+    common_traits &= bits;
+    all_category &= to.category[filled];
+    all_collide &= to.collide[filled];
     ++filled;
   }
   resize(filled);
+  all_traits = any_traits;
+  only_spheres = (common_traits & kIsSphere) != 0;
+  has_stale = is_stale;
   uniform_bits = (all_category & all_collide) != 0;
 }
 
@@ -172,9 +207,10 @@ void Mirror<Real>::find_vacated(std::span<dxGeom* const> moved, SlotChange& chan
 /// Fills the fresh slots from `arrived_`. False when these are not the geoms that left.
 template <class Real>
 bool Mirror<Real>::read_fresh(const GeomReader<Real>& reader, const SlotChange& change) {
+  const Slots to = slots();
   for (std::size_t k = 0; k < arrived_.size(); ++k) {
     dxGeom* const geom = arrived_[k];
-    read_geom(reader, geom, reader.class_of(geom), change.fresh[k]);
+    note_traits(read_geom(reader, geom, reader.class_of(geom), to, change.fresh[k]));
   }
   std::sort(arrived_.begin(), arrived_.end());
   std::sort(left_.begin(), left_.end());

@@ -111,8 +111,16 @@ class Mirror {
 
  private:
   void resize(std::size_t count);
-  void read_geom(const GeomReader<Real>& reader, dxGeom* geom, int number, std::uint32_t slot);
-  bool read_sphere(const GeomReader<Real>& reader, dxGeom* geom, std::uint32_t slot);
+  void note_traits(std::uint8_t bits) {
+    all_traits |= bits;
+    only_spheres = only_spheres && (bits & kIsSphere) != 0;
+  }
+  /// Where the arrays are, for loops in which they do not grow.
+  struct Slots;
+  [[nodiscard]] Slots slots();
+  /// Returns the geom's traits.
+  static std::uint8_t read_geom(const GeomReader<Real>& reader, dxGeom* geom, int number,
+                                const Slots& slots, std::size_t slot);
   void find_vacated(std::span<dxGeom* const> moved, SlotChange& change) const;
   [[nodiscard]] bool read_fresh(const GeomReader<Real>& reader, const SlotChange& change);
 

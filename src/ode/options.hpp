@@ -29,7 +29,7 @@ struct Options {
   /// Spaces with fewer geoms are left to libode. By measurement (`harpoon bench ode`).
   int min_geoms_simple = 160;
   int min_geoms_hash = 8;
-  int min_geoms_sap = 32;
+  int min_geoms_sap = 65;
   int min_geoms_quadtree = 64;
   int min_geoms_scan = 64;  ///< dSpaceCollide2 on this space
 };

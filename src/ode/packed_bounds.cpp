@@ -1,32 +1,8 @@
 #include "ode/packed_bounds.hpp"
 
-#include <array>
 #include <bit>
-#include <cmath>
-#include <limits>
 
 namespace harpoon::ode {
-namespace {
-
-/// Two units in the last place and the smallest normal number: more than a rounding in any mode,
-/// and more than what is lost where subnormals are flushed. Beyond binary32's range NaN comes out.
-float margin_of(float value) {
-  return std::fabs(value) * 0x1p-22f + std::numeric_limits<float>::min();
-}
-
-template <class Real>
-float rounded_down(Real value) {
-  const auto near = static_cast<float>(value);
-  return near - margin_of(near);
-}
-
-template <class Real>
-float rounded_up(Real value) {
-  const auto near = static_cast<float>(value);
-  return near + margin_of(near);
-}
-
-}  // namespace
 
 template <class Real>
 void PackedBounds<Real>::repack(std::span<const BoundsBox<Real>> boxes, std::size_t begin,
@@ -53,15 +29,12 @@ void PackedBounds<Real>::append_near(const BoundsBox<Real>& box, std::vector<std
   const float low[3] = {rounded_down(box.v[0]), rounded_down(box.v[2]), rounded_down(box.v[4])};
   const float high[3] = {rounded_up(box.v[1]), rounded_up(box.v[3]), rounded_up(box.v[5])};
   for (std::size_t number = first / kLanes; number < blocks_.size(); ++number) {
-    const Floats* const v = blocks_[number].v;
-    const Bits apart = (v[0] > high[0]) | (v[1] < low[0]) | (v[2] > high[1]) | (v[3] < low[1]) |
-                       (v[4] > high[2]) | (v[5] < low[2]);
-    const auto halves = std::bit_cast<std::array<std::uint64_t, 2>>(apart);
-    if ((halves[0] & halves[1]) == ~std::uint64_t{0}) continue;
-    for (std::size_t lane = 0; lane < kLanes; ++lane) {
-      const std::size_t k = number * kLanes + lane;
-      if (apart[lane] == 0 && k >= first && k < count_)
-        out.push_back(static_cast<std::uint32_t>(k));
+    const LaneFloats* const v = blocks_[number].v;
+    const LaneBits apart = (v[0] > high[0]) | (v[1] < low[0]) | (v[2] > high[1]) | (v[3] < low[1]) |
+                           (v[4] > high[2]) | (v[5] < low[2]);
+    for (unsigned near = ~mask_of(apart) & ((1u << kLanes) - 1); near != 0; near &= near - 1) {
+      const std::size_t k = number * kLanes + static_cast<unsigned>(std::countr_zero(near));
+      if (k >= first && k < count_) out.push_back(static_cast<std::uint32_t>(k));
     }
   }
 }

@@ -3,14 +3,33 @@
 // Boxes in binary32, rounded outwards, side by side in blocks: one box is compared with all of them
 // at the speed of memory. Finds candidates only; whoever asks compares exact bounds.
 
+#include <cmath>
 #include <cstddef>
 #include <cstdint>
+#include <limits>
 #include <span>
 #include <vector>
 
 #include "ode/bounds_box.hpp"
+#include "ode/lanes.hpp"
 
 namespace harpoon::ode {
+
+/// Two units in the last place and the smallest normal number: more than a rounding in any mode,
+/// and more than what is lost where subnormals are flushed. Beyond binary32's range NaN comes out.
+inline float margin_of(float value) {
+  return std::fabs(value) * 0x1p-22f + std::numeric_limits<float>::min();
+}
+template <class Real>
+float rounded_down(Real value) {
+  const auto near = static_cast<float>(value);
+  return near - margin_of(near);
+}
+template <class Real>
+float rounded_up(Real value) {
+  const auto near = static_cast<float>(value);
+  return near + margin_of(near);
+}
 
 template <class Real>
 class PackedBounds {
@@ -26,13 +45,9 @@ class PackedBounds {
                    std::size_t first = 0) const;
 
  private:
-  /// Vectors that compilers have everywhere; the library is built for the oldest machine it serves.
-  static constexpr std::size_t kLanes = 4;
-  using Floats __attribute__((vector_size(kLanes * sizeof(float)))) = float;
-  using Bits __attribute__((vector_size(kLanes * sizeof(float)))) = std::int32_t;
   /// min x, max x, min y, max y, min z, max z of as many boxes as there are lanes.
   struct Block {
-    Floats v[6];
+    LaneFloats v[6];
   };
 
   std::vector<Block> blocks_;

@@ -104,12 +104,27 @@ void Refresher<Real>::name_strays(Record& record) const {
   }
 }
 
-/// While a SAP space is small libode sorts it, and only libode knows in which order. That order is
-/// forgotten when the number of sorted geoms changes: with more than there ever were, it has.
+/// Before a SAP space that is libode's is looked at.
+template <class Real>
+bool Refresher<Real>::is_worth_a_look(Record& record) const {
+  reader.ode.space_clean(record.space);
+  if (!record.sap->is_sparse(reader, record.space, record.count)) return true;
+  record.sap_was_left = true;
+  record.leave_calls_to_stock();
+  return false;
+}
+
+/// While a SAP space is small or sparse libode sorts it, and only libode knows in which order. That
+/// order is forgotten when the number of sorted geoms changes: with more than there ever were, it
+/// has. Another time a space can be taken over when its order does not hang on that of the call
+/// before.
 template <class Real>
 bool Refresher<Real>::takes_over_sap(Record& record) const {
-  record.sap_is_ours = record.sap_is_ours || record.sap->sorted_geoms(record.mirror) >=
-                                                 static_cast<std::size_t>(options.min_geoms_sap);
+  if (record.sap_is_ours) return true;
+  const bool is_large =
+      record.sap->sorted_geoms(record.mirror) >= static_cast<std::size_t>(options.min_geoms_sap);
+  record.sap_is_ours =
+      is_large && (!record.sap_was_left || record.sap->finds_one_order(record.mirror));
   return record.sap_is_ours;
 }
 
@@ -131,6 +146,8 @@ template <class Real>
 bool Refresher<Real>::refresh_pairs(Record& record) const {
   Statistics::Counter* found_by = &statistics.unchanged;
   if (!record.moved.empty()) found_by = &statistics.updated;
+  const bool is_libodes = record.kind == geom_class::kSapSpace && !record.sap_is_ours;
+  if (is_libodes && !is_worth_a_look(record)) return false;
   refresh_mirror(record, true);
   if (record.mirror.has_stale && record.kind != geom_class::kSapSpace) {
     record.note_handover();
@@ -156,6 +173,13 @@ bool Refresher<Real>::refresh_pairs(Record& record) const {
   const auto found = find_pairs(record);
   if (!found) {
     warn(found.error().message);
+    return false;
+  }
+  if (record.kind == geom_class::kSapSpace && options.changes_are_reported &&
+      record.sap->is_for_libode()) {
+    record.sap_is_ours = false;
+    record.sap_was_left = true;
+    record.leave_calls_to_stock();
     return false;
   }
   record.found = *found;

@@ -37,6 +37,7 @@ struct Refresher {
   void follow_moved(Record& record, bool in_collide) const;
   [[nodiscard]] bool update_pairs(Record& record) const;
   Result<typename PairSearch<Real>::Found> find_pairs(Record& record) const;
+  [[nodiscard]] bool is_worth_a_look(Record& record) const;
   [[nodiscard]] bool takes_over_sap(Record& record) const;
   void name_strays(Record& record) const;
   void warn(const std::string& line) const {

@@ -10,8 +10,14 @@
 namespace harpoon::ode {
 namespace {
 
-/// Up to this many geoms the sweep itself is the fastest way to find the pairs.
-constexpr std::size_t kFewGeoms = 256;
+/// A geom that is compared with so many others on average is found faster by a search.
+constexpr std::size_t kMostPartners = 256;
+/// With fewer, as in a chain along the first axis, libode's sweep has next to nothing to do.
+constexpr std::size_t kFewestPartners = 8;
+/// By which the number of others is estimated before all geoms have been read.
+constexpr std::size_t kSampleGeoms = 256;
+/// How far geoms may be from their places in the order of the call before.
+constexpr std::size_t kMovesOfAGeom = 8;
 
 /// Bits whose unsigned order is that of the floats.
 std::uint32_t ordered_bits(float value) {
@@ -23,7 +29,8 @@ std::uint32_t ordered_bits(float value) {
 
 template <class Real>
 SapOrder<Real>::SapOrder(int axis_order)
-    : axes_{axis_order & 3, (axis_order >> 2) & 3, (axis_order >> 4) & 3} {}
+    : axes_{axis_order & 3, (axis_order >> 2) & 3, (axis_order >> 4) & 3},
+      lanes_(axes_[1], axes_[2]) {}
 
 template <class Real>
 bool SapOrder<Real>::usable() const {
@@ -44,20 +51,61 @@ std::size_t SapOrder<Real>::sorted_geoms(const Mirror<Real>& mirror) const {
 template <class Real>
 void SapOrder<Real>::split(const Mirror<Real>& mirror) {
   const int low = 2 * axes_[0];
-  bounded_.clear();
+  const std::size_t count = mirror.size();
+  bounded_.resize(count);
+  lows_.resize(count);
+  highs_.resize(count);
   unbounded_.clear();
-  lows_.clear();
-  highs_.clear();
-  for (std::uint32_t i = 0; i < mirror.size(); ++i) {
+  std::uint32_t* const bounded = bounded_.data();
+  float *const lows = lows_.data(), *const highs = highs_.data();
+  std::size_t found = 0;
+  for (std::uint32_t i = 0; i < count; ++i) {
     const Real* box = mirror.bounds[i].v;
     if (box[low + 1] == std::numeric_limits<Real>::infinity()) {
       unbounded_.push_back(i);
       continue;
     }
-    bounded_.push_back(i);
-    lows_.push_back(static_cast<float>(box[low]));
-    highs_.push_back(static_cast<float>(box[low + 1]));
+    bounded[found] = i;
+    lows[found] = static_cast<float>(box[low]);
+    highs[found] = static_cast<float>(box[low + 1]);
+    ++found;
   }
+  bounded_.resize(found);
+  lows_.resize(found);
+  highs_.resize(found);
+}
+
+template <class Real>
+bool SapOrder<Real>::is_sparse(const GeomReader<Real>& reader, dxSpace* space, int count) const {
+  const int low = 2 * axes_[0];
+  std::array<std::array<Real, 2>, kSampleGeoms> sample;
+  const int samples = std::min(count, static_cast<int>(kSampleGeoms));
+  for (int k = 0; k < samples; ++k) {
+    const auto at = static_cast<std::int64_t>(k) * count / samples;
+    BoundsBox<Real> box;
+    reader.read_bounds(reader.ode.space_get_geom(space, static_cast<int>(at)), box);
+    sample[static_cast<std::size_t>(k)] = {box.v[low], box.v[low + 1]};
+  }
+  std::int64_t overlaps = 0;
+  for (int j = 1; j < samples; ++j) {
+    const auto& b = sample[static_cast<std::size_t>(j)];
+    for (int i = 0; i < j; ++i) {
+      const auto& a = sample[static_cast<std::size_t>(i)];
+      overlaps += static_cast<int>(a[0] <= b[1]) & static_cast<int>(b[0] <= a[1]);
+    }
+  }
+  // Of all pairs of geoms as many overlap as of those of the sample.
+  const double pairs = 0.5 * samples * (samples - 1);
+  return static_cast<double>(overlaps) / pairs * count / 2 < kFewestPartners;
+}
+
+template <class Real>
+bool SapOrder<Real>::finds_one_order(const Mirror<Real>& mirror) {
+  split(mirror);
+  std::vector<float> sorted = lows_;
+  std::sort(sorted.begin(), sorted.end());
+  return (mirror.all_traits & kIsNan) == 0 &&
+         std::adjacent_find(sorted.begin(), sorted.end()) == sorted.end();
 }
 
 template <class Real>
@@ -68,17 +116,30 @@ bool SapOrder<Real>::is_sorted() const {
   return true;
 }
 
-/// Stable by value; runs of one negative value come out reversed, as libode's last pass does it.
+/// Where the order is nearly that of the call before. False when it is not; what has been done by
+/// then was stable.
 template <class Real>
-void SapOrder<Real>::radix_sort() {
-  const std::size_t count = ranks_.size();
-  keys_.resize(count);
+bool SapOrder<Real>::sort_by_insertion() {
+  std::size_t moves_left = kMovesOfAGeom * keys_.size();
+  for (std::size_t i = 1; i < keys_.size(); ++i) {
+    const std::uint64_t key = keys_[i];
+    std::size_t place = i;
+    for (; place > 0 && keys_[place - 1] >> 32 > key >> 32 && moves_left > 0; --place) {
+      keys_[place] = keys_[place - 1];
+      --moves_left;
+    }
+    keys_[place] = key;
+  }
+  return moves_left > 0;
+}
+
+template <class Real>
+void SapOrder<Real>::sort_by_radix() {
+  const std::size_t count = keys_.size();
   keys_scratch_.resize(count);
   std::array<std::array<std::uint32_t, 256>, 4> starts{};
-  for (std::size_t i = 0; i < count; ++i) {
-    const std::uint32_t bits = ordered_bits(lows_[ranks_[i]]);
-    keys_[i] = std::uint64_t{bits} << 32 | ranks_[i];
-    for (std::size_t pass = 0; pass < 4; ++pass) ++starts[pass][bits >> (8 * pass) & 255];
+  for (const std::uint64_t key : keys_) {
+    for (std::size_t pass = 0; pass < 4; ++pass) ++starts[pass][key >> (32 + 8 * pass) & 255];
   }
   for (std::size_t pass = 0; pass < 4; ++pass) {
     auto& start = starts[pass];
@@ -90,15 +151,19 @@ void SapOrder<Real>::radix_sort() {
     }
     keys_.swap(keys_scratch_);
   }
+}
+
+/// Runs of one negative value come out reversed, as libode's last pass does it.
+template <class Real>
+void SapOrder<Real>::reverse_negative_runs() {
   constexpr std::uint64_t kPositive = std::uint64_t{1} << 63;
-  for (std::size_t begin = 0; begin < count && keys_[begin] < kPositive;) {
+  for (std::size_t begin = 0; begin < keys_.size() && keys_[begin] < kPositive;) {
     std::size_t end = begin + 1;
-    while (end < count && keys_[end] >> 32 == keys_[begin] >> 32) ++end;
+    while (end < keys_.size() && keys_[end] >> 32 == keys_[begin] >> 32) ++end;
     std::reverse(keys_.begin() + static_cast<std::ptrdiff_t>(begin),
                  keys_.begin() + static_cast<std::ptrdiff_t>(end));
     begin = end;
   }
-  for (std::size_t i = 0; i < count; ++i) ranks_[i] = static_cast<std::uint32_t>(keys_[i]);
 }
 
 template <class Real>
@@ -108,7 +173,14 @@ void SapOrder<Real>::sort() {
     ranks_.resize(lows_.size());
     std::iota(ranks_.begin(), ranks_.end(), 0u);
   }
-  if (!is_sorted()) radix_sort();
+  if (is_sorted()) return;
+  keys_.resize(ranks_.size());
+  for (std::size_t i = 0; i < ranks_.size(); ++i) {
+    keys_[i] = std::uint64_t{ordered_bits(lows_[ranks_[i]])} << 32 | ranks_[i];
+  }
+  if (!sort_by_insertion()) sort_by_radix();
+  reverse_negative_runs();
+  for (std::size_t i = 0; i < ranks_.size(); ++i) ranks_[i] = static_cast<std::uint32_t>(keys_[i]);
 }
 
 /// libode's own loop, step by step, so that it also gives what NaNs and inverted boxes give there.
@@ -142,6 +214,17 @@ void SapOrder<Real>::sweep(const Mirror<Real>& mirror, std::vector<IndexPair>& o
     }
   }
   out.resize(found);
+}
+
+/// False when a search is faster.
+template <class Real>
+bool SapOrder<Real>::sweep_in_lanes(const Mirror<Real>& mirror, std::vector<IndexPair>& out) {
+  lanes_.assign(mirror, ranks_, bounded_.data(), lows_.data(), highs_.data());
+  const std::size_t partners = lanes_.mean_partners();
+  if (partners > kMostPartners) return false;
+  is_for_libode_ = partners < kFewestPartners && unbounded_.empty() && lanes_.has_one_order();
+  lanes_.append(mirror, out);
+  return true;
 }
 
 template <class Real>
@@ -210,14 +293,15 @@ std::optional<Error> SapOrder<Real>::append(const Mirror<Real>& mirror,
                                             CandidateFinder<Real>& finder, RowOrder& rows,
                                             std::vector<IndexPair>& out) {
   const std::size_t begin = out.size();
+  is_for_libode_ = false;
   split(mirror);
   if (!bounded_.empty()) {
     sort();
     constexpr std::uint8_t kOdd = kIsNan | kIsInverted;
-    if (bounded_.size() <= kFewGeoms || (mirror.all_traits & kOdd) != 0) {
+    if ((mirror.all_traits & kOdd) != 0) {
       sweep(mirror, out);
-    } else if (auto error = search(mirror, finder, rows, out)) {
-      return error;
+    } else if (!sweep_in_lanes(mirror, out)) {
+      if (auto error = search(mirror, finder, rows, out)) return error;
     }
   }
   note_sorted(out.size() - begin);

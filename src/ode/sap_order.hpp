@@ -18,6 +18,7 @@
 #include "ode/mirror.hpp"
 #include "ode/pair_merge.hpp"
 #include "ode/row_order.hpp"
+#include "ode/sap_sweep.hpp"
 
 namespace harpoon::ode {
 
@@ -30,6 +31,18 @@ class SapOrder {
   [[nodiscard]] int axis_order() const { return axes_[0] | axes_[1] << 2 | axes_[2] << 4; }
   /// Whether the axes are three different ones: others are left to libode.
   [[nodiscard]] bool usable() const;
+
+  /// Whether libode's own sweep is the fastest way, which makes no mirror first, and the last
+  /// call's order is one that it finds by itself, whatever it knows of the calls before.
+  [[nodiscard]] bool is_for_libode() const { return is_for_libode_; }
+
+  /// Whether libode's own sweep would have next to nothing to do: from some of a clean space's
+  /// geoms. `count` is that of all.
+  [[nodiscard]] bool is_sparse(const GeomReader<Real>& reader, dxSpace* space, int count) const;
+
+  /// Whether the mirror has one order only, whatever that of the call before was. Throws
+  /// std::bad_alloc.
+  [[nodiscard]] bool finds_one_order(const Mirror<Real>& mirror);
 
   /// How many of the mirror's geoms are sorted: the number that libode's history hangs on.
   [[nodiscard]] std::size_t sorted_geoms(const Mirror<Real>& mirror) const;
@@ -53,8 +66,11 @@ class SapOrder {
   /// Brings `ranks_` from the last call's order to that of `lows_`.
   void sort();
   [[nodiscard]] bool is_sorted() const;
-  void radix_sort();
+  [[nodiscard]] bool sort_by_insertion();
+  void sort_by_radix();
+  void reverse_negative_runs();
   void sweep(const Mirror<Real>& mirror, std::vector<IndexPair>& out);
+  [[nodiscard]] bool sweep_in_lanes(const Mirror<Real>& mirror, std::vector<IndexPair>& out);
   [[nodiscard]] std::optional<Error> search(const Mirror<Real>& mirror,
                                             CandidateFinder<Real>& finder, RowOrder& rows,
                                             std::vector<IndexPair>& out);
@@ -77,6 +93,7 @@ class SapOrder {
   };
 
   int axes_[3];
+  SapSweep<Real> lanes_;
   std::vector<Sorted> sorted_;
   std::vector<std::uint32_t> bounded_, unbounded_;  ///< geoms of the mirror
   std::vector<float> lows_, highs_;                 ///< of `bounded_`
@@ -89,6 +106,7 @@ class SapOrder {
   std::size_t sorted_pairs_ = 0;             ///< the first of the last call's pairs
   std::vector<IndexPair> both_;
   std::vector<PlacedPair> placed_;
+  bool is_for_libode_ = false;
 };
 
 }  // namespace harpoon::ode

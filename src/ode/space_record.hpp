@@ -54,17 +54,21 @@ struct SpaceRecord {
 
   std::optional<SapOrder<Real>> sap;  ///< only for spaces whose creation was seen
   bool sap_is_ours = false;           ///< libode is not asked any more, its history is old
+  bool sap_was_left = false;          ///< to libode, with as many geoms as are worth it
   std::vector<GeomPair> recorded;     ///< libode's own sequence
   bool recorded_valid = false;
 
   /// Calls yet to be left to libode, because callbacks change what it reads while it walks.
   int calls_left_to_stock = 0;
   int calls_left_last_time = 0;
+  static constexpr int kMostCallsLeft = 63;
   /// A call had to be handed over: each time twice as many that follow it are left to libode.
   void note_handover() {
-    calls_left_last_time = std::min(2 * calls_left_last_time + 1, 63);
+    calls_left_last_time = std::min(2 * calls_left_last_time + 1, kMostCallsLeft);
     calls_left_to_stock = calls_left_last_time;
   }
+  /// libode's own way is the fastest for now. To find that out takes as long as a few calls.
+  void leave_calls_to_stock() { calls_left_to_stock = 255; }
   /// A call went through without.
   void note_own_course() {
     if (calls_left_to_stock == 0) calls_left_last_time = 0;

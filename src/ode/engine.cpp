@@ -98,10 +98,11 @@ class EngineOf final : public Engine {
   void class_created(int number, AabbTest* test) override;
   void collider_overridden(int class1, int class2) override;
   void closed() override;
+  void lost_track() noexcept override;
 
   [[nodiscard]] const Statistics& statistics() const override { return statistics_; }
   [[nodiscard]] std::string report() const override {
-    return to_line(statistics_, parts_.device->name());
+    return to_line(statistics_, parts_.device->name(), options_.changes_are_reported);
   }
 
  private:
@@ -156,14 +157,17 @@ class EngineOf final : public Engine {
   void stock_scan(dxSpace* scanned, dxGeom* other, bool scanned_first, void* data,
                   NearCallback* callback) const {
     dxGeom* const space = as_geom(scanned);
+    ++hand_overs;
     ode_.space_collide2(scanned_first ? space : other, scanned_first ? other : space, data,
                         callback);
   }
   [[nodiscard]] bool spheres_are_ours();
+  [[nodiscard]] bool is_as_mirrored(const Mirror<Real>& mirror, IndexPair pair) const;
   int answer_contact(Frame<Real>& frame, int flags, ContactGeomOf<Real>& contact, int skip);
   void leave_to_stock(dxSpace* space, void* data, NearCallback* callback) {
     // Small spaces come this way, whose calls are so short that counting them shows.
     if (options_.statistics) Statistics::add(statistics_.left_to_stock, 1);
+    ++hand_overs;
     ode_.space_collide(space, data, callback);
   }
   void warn(const std::string& line) const {
@@ -360,6 +364,7 @@ void EngineOf<Real>::record_or_replay(Record& record, void* data, NearCallback* 
   Statistics::add(statistics_.recorded, 1);
   record.recorded.clear();
   Recorder recorder{record.recorded, data, callback};
+  ++hand_overs;
   ode_.space_collide(record.space, &recorder, &Recorder::near);
   record.recorded_valid = !record.changed.load(std::memory_order_relaxed);
   Statistics::add(statistics_.pairs, record.recorded.size());
@@ -368,6 +373,7 @@ void EngineOf<Real>::record_or_replay(Record& record, void* data, NearCallback* 
 template <class Real>
 void EngineOf<Real>::space_collide(dxSpace* space, void* data, NearCallback* callback) {
   if (space == nullptr || callback == nullptr) {
+    ++hand_overs;
     ode_.space_collide(space, data, callback);
     return;
   }
@@ -505,6 +511,7 @@ bool EngineOf<Real>::answer_spaces(dxSpace* space1, dxSpace* space2, void* data,
 template <class Real>
 void EngineOf<Real>::space_collide2(dxGeom* o1, dxGeom* o2, void* data, NearCallback* callback) {
   if (o1 == nullptr || o2 == nullptr || callback == nullptr) {
+    ++hand_overs;
     ode_.space_collide2(o1, o2, data, callback);
     return;
   }
@@ -531,7 +538,9 @@ void EngineOf<Real>::space_collide2(dxGeom* o1, dxGeom* o2, void* data, NearCall
     answered = answer_scan(scanned, space1 != nullptr ? o2 : o1, space1 != nullptr, data, callback);
   }
   Statistics::add(answered ? statistics_.scanned : statistics_.left_to_stock, 1);
-  if (!answered) ode_.space_collide2(o1, o2, data, callback);
+  if (answered) return;
+  ++hand_overs;
+  ode_.space_collide2(o1, o2, data, callback);
 }
 
 /// Tried once, at the first pair of spheres: libode is initialised by then.
@@ -551,6 +560,22 @@ bool EngineOf<Real>::spheres_are_ours() {
   return agreement == Agreement::yes;
 }
 
+/// Whether two spheres are where the mirror has them, on the bodies that it has.
+template <class Real>
+bool EngineOf<Real>::is_as_mirrored(const Mirror<Real>& mirror, IndexPair pair) const {
+  for (const std::uint32_t slot : {pair.g1, pair.g2}) {
+    dxGeom* const geom = mirror.geoms[slot];
+    const Real* const at = ode_.geom_get_position(geom);
+    const SphereOf<Real>& sphere = mirror.spheres[slot];
+    if (at[0] != sphere.x || at[1] != sphere.y || at[2] != sphere.z ||
+        ode_.sphere_get_radius(geom) != sphere.r ||
+        ode_.geom_get_body(geom) != mirror.bodies[slot]) {
+      return false;
+    }
+  }
+  return true;
+}
+
 /// The contact of the frame's pair: 0 or 1 as dCollide, -1 when it is libode's.
 template <class Real>
 int EngineOf<Real>::answer_contact(Frame<Real>& frame, int flags, ContactGeomOf<Real>& contact,
@@ -564,6 +589,11 @@ int EngineOf<Real>::answer_contact(Frame<Real>& frame, int flags, ContactGeomOf<
   if (!contacts.has(frame.number)) {
     if (!record.mirror.are_spheres(record.pairs[frame.number]) || !spheres_are_ours()) return -1;
     contacts.load(source_, record.mirror, record.pairs, frame.number);
+  }
+  // Nobody tells what callbacks do meanwhile.
+  if (!options_.changes_are_reported &&
+      !is_as_mirrored(record.mirror, record.pairs[frame.number])) {
+    return -1;
   }
   using Answer = typename SphereContacts<Real>::Answer;
   const Answer answer = contacts.find(record.mirror, record.pairs, frame.number);
@@ -653,10 +683,12 @@ void EngineOf<Real>::toggled(dxGeom* geom, bool enabled) {
   }
 }
 
+/// The bounds of the space may have changed with its geoms: to the spaces around it it has moved.
 template <class Real>
 void EngineOf<Real>::added(dxSpace* space) {
   if (table_.empty() || space == nullptr) return;
   if (Record* record = table_.find(space)) record->mark_changed_with_contacts();
+  if (dxSpace* const outer = ode_.geom_get_space(as_geom(space))) note_move(as_geom(space), outer);
 }
 
 template <class Real>
@@ -713,6 +745,16 @@ void EngineOf<Real>::collider_overridden(int class1, int class2) {
   if (class1 == geom_class::kSphere && class2 == geom_class::kSphere) {
     spheres_.store(Agreement::no, std::memory_order_relaxed);
     table_.for_each([](Record& record) { record.mark_changed_with_contacts(); });
+  }
+}
+
+template <class Real>
+void EngineOf<Real>::lost_track() noexcept {
+  table_.for_each([](Record& record) { record.mark_changed_with_contacts(); });
+  count_look();
+  // A geom that is gone may be in what they have yet to replay.
+  for (Frame<Real>* frame = Frame<Real>::current(); frame != nullptr; frame = frame->outer) {
+    frame->disturbed = frame->stopped = true;
   }
 }
 

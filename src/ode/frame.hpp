@@ -13,6 +13,10 @@
 
 namespace harpoon::ode {
 
+/// How often this thread began to call callbacks, ours or libode's own way: from then on a call
+/// cannot be begun anew.
+inline constinit thread_local unsigned hand_overs = 0;
+
 /// Frames on this thread's stack: without any dCollide is libode's at once.
 inline constinit thread_local int open_frames = 0;
 
@@ -21,6 +25,7 @@ struct Frame {
   explicit Frame(dxSpace* the_space) : space(the_space), outer(current()) {
     current() = this;
     ++open_frames;
+    ++hand_overs;
   }
   ~Frame() {
     current() = outer;

@@ -70,9 +70,8 @@ void become(const std::vector<std::string>& command) {
 }
 
 [[noreturn]] void refuse(const std::vector<std::string>& command, int error) {
-  throw CommandError(
-      ExitCode::environment,
-      fmt::format("{}: {}. Give a program that is there.", command[0], std::strerror(error)));
+  throw CommandError(ExitCode::environment, fmt::format("{}: {}. Give a program that is there.",
+                                                        command[0], std::strerror(error)));
 }
 
 [[noreturn]] void refuse_process() {
@@ -87,8 +86,8 @@ class Arrivals {
   Arrivals() : file_(::memfd_create("harpoon-arrivals", MFD_CLOEXEC)) {
     struct stat status {};
     if (file_ < 0 || ::fstat(file_, &status) != 0) refuse_process();
-    set_variable({ode::kArrivalVariable, fmt::format("{} {} {} {}", ::getpid(), file_,
-                                                     status.st_dev, status.st_ino)});
+    set_variable({ode::kArrivalVariable,
+                  fmt::format("{} {} {} {}", ::getpid(), file_, status.st_dev, status.st_ino)});
   }
   [[nodiscard]] bool arrived() const { return noted(0); }
   [[nodiscard]] bool served() const { return noted(1); }
@@ -105,8 +104,8 @@ class Arrivals {
 sigset_t watched_signals() {
   sigset_t signals;
   ::sigemptyset(&signals);
-  for (const int number : {SIGHUP, SIGINT, SIGQUIT, SIGTERM, SIGUSR1, SIGUSR2, SIGTSTP, SIGCONT,
-                           SIGCHLD}) {
+  for (const int number :
+       {SIGHUP, SIGINT, SIGQUIT, SIGTERM, SIGUSR1, SIGUSR2, SIGTSTP, SIGCONT, SIGCHLD}) {
     ::sigaddset(&signals, number);
   }
   return signals;
@@ -133,8 +132,8 @@ pid_t start(const std::vector<std::string>& command, const sigset_t& usual_signa
   refuse(command, error);
 }
 
-/// Waits for the end of the child, whose status it returns. What a terminal sends both receive; what
-/// others send to this process is passed on. Stops when the child is stopped.
+/// Waits for the end of the child, whose status it returns. What a terminal sends both receive;
+/// what others send to this process is passed on. Stops when the child is stopped.
 int wait_for(pid_t child, const sigset_t& signals) {
   for (;;) {
     siginfo_t news{};
@@ -170,7 +169,8 @@ std::string absence(const Arrivals& arrivals) {
   if (arrivals.served()) return {};
   return arrivals.arrived()
              ? "calls of ODE arrived, but Harpoon could not serve them: see above"
-             : "no call of ODE arrived at Harpoon: nothing was served or compared. The program uses "
+             : "no call of ODE arrived at Harpoon: nothing was served or compared. The program "
+               "uses "
                "no ODE, is linked to it statically, or loaded it past Harpoon (RTLD_DEEPBIND, "
                "dlsym); docs/ode.md";
 }

@@ -1,7 +1,7 @@
 #pragma once
 
-// libharpoon_ode as a file, and programs run with it in front of libode: instead of this process, or
-// watched by it where silence could be taken for success.
+// libharpoon_ode as a file, and programs run with it in front of libode: instead of this process,
+// or watched by it where silence could be taken for success.
 
 #include <filesystem>
 #include <string>

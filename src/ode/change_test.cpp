@@ -73,10 +73,8 @@ class ChangeTest {
 
   std::string run() {
     make_spaces();
-    if (missing_ == nullptr) {
-      test_geoms();
-      test_bodies();
-    }
+    test_geoms();
+    test_bodies();
     destroy_spaces();
     return missing_ == nullptr ? std::string() : std::string(missing_);
   }
@@ -84,7 +82,8 @@ class ChangeTest {
  private:
   using Event = ChangeListener::Event;
 
-  /// Calls libode's function of that name. Where there is none nothing can be said of it.
+  /// Calls libode's function of that name. Where there is none nothing can be said of it. After the
+  /// first change that was not heard nothing more is tried.
   template <class Value = void, class... Arguments>
   Value call(const char* name, Arguments... arguments) {
     return call_found<Value>(request_.find(request_.libode, name), name, arguments...);
@@ -92,10 +91,12 @@ class ChangeTest {
   /// The same as programs reach it.
   template <class Value = void, class... Arguments>
   Value call_in_front(const char* name, Arguments... arguments) {
-    return call_found<Value>(request_.find_in_front(name), name, arguments...);
+    const bool is_there = request_.find(request_.libode, name) != nullptr;
+    return call_found<Value>(is_there ? request_.find_in_front(name) : nullptr, name, arguments...);
   }
   template <class Value, class... Arguments>
   Value call_found(void* function, const char* name, Arguments... arguments) {
+    if (missing_ != nullptr && !clears_up_) return Value();
     if (function != nullptr) {
       return reinterpret_cast<Value (*)(Arguments...)>(function)(arguments...);
     }
@@ -140,6 +141,7 @@ class ChangeTest {
   const ServiceRequest& request_;
   ChangeListener& listener_;
   const char* missing_ = nullptr;
+  bool clears_up_ = false;
   dxSpace *outer_ = nullptr, *inner_ = nullptr, *sap_ = nullptr;
   static constexpr Real kTurn[12] = {0, -1, 0, 0, 1, 0, 0, 0, 0, 0, 1, 0};
   static constexpr Real kQuarter[4] = {0, 1, 0, 0};
@@ -154,7 +156,8 @@ void ChangeTest<Real>::make_spaces() {
   check("dSimpleSpaceCreate");
   expect(Event::sap, static_cast<dxSpace*>(nullptr));
   constexpr int kXyz = 0 | 1 << 2 | 2 << 4;
-  sap_ = call_in_front<dxSpace*>("dSweepAndPruneSpaceCreate", static_cast<dxSpace*>(nullptr), kXyz);
+  // Within the other one, by which everybody knows which libode is meant.
+  sap_ = call_in_front<dxSpace*>("dSweepAndPruneSpaceCreate", outer_, kXyz);
   check("dSweepAndPruneSpaceCreate");
   change(Event::levels, outer_, "dHashSpaceSetLevels", outer_, -3, 10);
 }
@@ -170,7 +173,6 @@ void ChangeTest<Real>::test_geoms() {
     dxGeom* const cylinder = create("dCreateCylinder", space, one, one);
     dxGeom* const plane = create("dCreatePlane", space, zero, zero, one, zero);
     dxGeom* const ray = create("dCreateRay", space, one);
-    if (missing_ != nullptr) return;
     move(sphere, "dGeomSetPosition", sphere, one, zero, zero);
     move(box, "dGeomSetRotation", box, &kTurn[0]);
     move(box, "dGeomSetQuaternion", box, &kQuarter[0]);
@@ -215,29 +217,31 @@ void ChangeTest<Real>::test_bodies() {
     move(geom, "dGeomSetOffsetWorldQuaternion", geom, &kQuarter[0]);
     move(geom, "dGeomClearOffset", geom);
     call("dBodySetLinearVel", body, one, zero, zero);
+    // A step needs what dInitODE makes.
+    if (!request_.is_initialised) note_missing("dWorldStep");
     move(geom, "dWorldStep", world, one);
     expect(Event::filters, geom);
     call("dBodyDestroy", body);
     check("dBodyDestroy");
   }
+  clears_up_ = true;
   call("dWorldDestroy", world);
 }
 
 template <class Real>
 void ChangeTest<Real>::destroy_spaces() {
-  if (inner_ != nullptr) {
+  if (inner_ != nullptr && missing_ == nullptr) {
     expect(Event::removed, outer_);
     call("dSpaceDestroy", inner_);
     check("dSpaceDestroy");
-    inner_ = outer_ == nullptr ? nullptr : call<dxSpace*>("dSimpleSpaceCreate", outer_);
+    inner_ = call<dxSpace*>("dSimpleSpaceCreate", outer_);
   }
-  for (dxSpace* space : {outer_, sap_}) {
-    if (space == nullptr) continue;
-    // A space within goes with the one around it.
-    expect(Event::destroying, space == outer_ ? inner_ : sap_);
-    call("dSpaceDestroy", space);
-    check("dSpaceDestroy");
-  }
+  clears_up_ = true;
+  if (outer_ == nullptr) return;
+  // A space within goes with the one around it.
+  expect(Event::destroying, inner_);
+  call("dSpaceDestroy", outer_);
+  check("dSpaceDestroy");
 }
 
 }  // namespace

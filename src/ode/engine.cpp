@@ -560,9 +560,10 @@ bool EngineOf<Real>::spheres_are_ours() {
   return agreement == Agreement::yes;
 }
 
-/// Whether two spheres are where the mirror has them, on the bodies that it has.
+/// Whether a pair's geoms are spheres where the mirror has them, on the bodies that it has.
 template <class Real>
 bool EngineOf<Real>::is_as_mirrored(const Mirror<Real>& mirror, IndexPair pair) const {
+  if (!mirror.are_spheres(pair)) return false;
   for (const std::uint32_t slot : {pair.g1, pair.g2}) {
     dxGeom* const geom = mirror.geoms[slot];
     const Real* const at = ode_.geom_get_position(geom);

@@ -107,6 +107,7 @@ Service* serve(Libode& libode) {
     service = reinterpret_cast<Serve*>(make)({.libode = &libode,
                                               .path = libode.path,
                                               .number = served.fetch_add(1),
+                                              .is_initialised = libode.initialised.load() > 0,
                                               .find = &find,
                                               .find_in_front = &find_in_front,
                                               .listen = &listen,

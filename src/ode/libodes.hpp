@@ -26,6 +26,7 @@ struct Libode {
   enum class State { untried, being_tried, tried };
   std::atomic<State> state{State::untried};
   std::atomic<Service*> service{nullptr};
+  std::atomic<int> initialised{0};  ///< calls of dInitODE without one of dCloseODE
   /// What dCollide and dGeomMoved are for its geoms. Never null.
   std::atomic<Collide*> collide{nullptr};
   std::atomic<GeomMoved*> geom_moved{nullptr};

@@ -209,12 +209,16 @@ HARPOON_API void dHashSpaceSetLevels(dxSpace* space, int min_level, int max_leve
 // Whoever uses a libode starts with one of these: where another was loaded meanwhile, it is found.
 
 HARPOON_API void dInitODE() {
-  call_stock(libode_of_caller(__builtin_return_address(0)), &Interposed::init_ode, "dInitODE");
+  Libode* const libode = libode_of_caller(__builtin_return_address(0));
+  call_stock(libode, &Interposed::init_ode, "dInitODE");
+  if (libode != nullptr) libode->initialised.fetch_add(1);
 }
 
 HARPOON_API int dInitODE2(unsigned flags) {
-  return call_stock(libode_of_caller(__builtin_return_address(0)), &Interposed::init_ode2,
-                    "dInitODE2", flags);
+  Libode* const libode = libode_of_caller(__builtin_return_address(0));
+  const int done = call_stock(libode, &Interposed::init_ode2, "dInitODE2", flags);
+  if (libode != nullptr && done != 0) libode->initialised.fetch_add(1);
+  return done;
 }
 
 HARPOON_API dxSpace* dSimpleSpaceCreate(dxSpace* parent) {
@@ -259,8 +263,9 @@ HARPOON_API void dSetColliderOverride(int class1, int class2, void* function) {
 }
 
 HARPOON_API void dCloseODE() {
-  const Libode* const libode = libode_of_caller(__builtin_return_address(0));
+  Libode* const libode = libode_of_caller(__builtin_return_address(0));
   if (Service* const service = listener_of(libode)) service->closed();
+  if (libode != nullptr) libode->initialised.fetch_sub(1);
   call_stock(libode, &Interposed::close_ode, "dCloseODE");
 }
 

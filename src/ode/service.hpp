@@ -47,6 +47,8 @@ struct ServiceRequest {
   const char* path;
   /// How many libodes were served before it.
   int number;
+  /// dInitODE has been called, and not dCloseODE since then.
+  bool is_initialised;
   /// Its function of that name, or null.
   void* (*find)(void* libode, const char* name);
   /// The function that the process reaches by that name; null where it is a libode's own.

@@ -18,7 +18,7 @@ import unittest
 sys.path.insert(0, str(pathlib.Path(__file__).with_name("variants")))
 import libode_variants  # noqa: E402
 
-LIBRARIES, PROGRAMS = (pathlib.Path(argument).resolve() for argument in (sys.argv.pop(1), sys.argv.pop(1)))
+LIBRARIES, PROGRAMS = (pathlib.Path(sys.argv.pop(1)).resolve() for _ in range(2))
 PRELOAD = LIBRARIES / "libharpoon_ode.so"
 HOST = PROGRAMS / "ode_loading_host"
 WORLD, SMALL_WORLD, FOREIGN = (PROGRAMS / f"ode_loading_{name}.so"
@@ -28,8 +28,8 @@ DEAF = "does not tell of every change"
 # What small_world needs in order to be loaded at all.
 NEEDED = {"dInitODE2", "dHashSpaceCreate", "dCreateSphere", "dGeomSetPosition", "dSpaceCollide",
           "dSpaceDestroy", "dCloseODE"}
-INTERPOSED = {name for name in re.findall(r" T (d[A-Z]\w+)", subprocess.run(
-    ["nm", "-D", PRELOAD], check=True, capture_output=True, text=True).stdout)}
+EXPORTS = subprocess.run(["nm", "-D", PRELOAD], check=True, capture_output=True, text=True).stdout
+INTERPOSED = set(re.findall(r" T (d[A-Z]\w+)", EXPORTS))
 
 
 def run(words, preload=PRELOAD, prefix=(), cwd=None, **variables):

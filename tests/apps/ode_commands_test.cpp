@@ -87,6 +87,22 @@ TEST(RunCommand, WhatIsRequiredMayHappenInAnyProcess) {
   EXPECT_TRUE(contains(refused.err, "could not serve them")) << refused.err;
 }
 
+/// The dynamic linker would stop reading there, and load nothing or another file.
+TEST(RunCommand, APathThatCannotBePreloadedIsNamed) {
+  for (const char* name : {"with space", "with:colon"}) {
+    const ScratchFolder folder;
+    const std::filesystem::path home = folder / name;
+    std::filesystem::create_directories(home / "bin");
+    std::filesystem::create_directories(home / "lib");
+    write_file(home / "lib" / "libharpoon_ode.so", "");
+    std::filesystem::copy(std::filesystem::read_symlink("/proc/self/exe").parent_path() / "harpoon",
+                          home / "bin" / "harpoon");
+    const Finished f = run_piped({"run", "--", home / "bin" / "harpoon", "run", "--", "true"});
+    EXPECT_EQ(f.exit_code, 3) << f.err;
+    EXPECT_TRUE(contains(f.err, "cannot be preloaded")) << f.err;
+  }
+}
+
 TEST(RunCommand, NamesWhatIsWrong) {
   const Finished nothing = run_piped({"run"});
   EXPECT_EQ(nothing.exit_code, 2);

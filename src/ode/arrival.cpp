@@ -94,13 +94,13 @@ void note_service() {
 extern "C" {
 
 /// A program that ends in this way runs nothing that waits for its end.
-[[noreturn]] HARPOON_API void _exit(int status) {
+HARPOON_API void _exit(int status) {
   harpoon::ode::report_all();
   harpoon::ode::say_that_none_arrived();
   for (;;) ::syscall(SYS_exit_group, status);
 }
 
-[[noreturn]] HARPOON_API void _Exit(int status) {
+HARPOON_API void _Exit(int status) {
   ::_exit(status);
 }
 

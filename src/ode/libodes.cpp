@@ -76,11 +76,16 @@ const char* path_of(void* handle) {
   return static_cast<link_map*>(handle)->l_name;
 }
 
-const Module& own_module() {
-  static constinit Module module{};
+bool is_own(std::uintptr_t address) {
   // Threads that come at once write the same.
-  if (module.end == 0) module = module_of(number_of(reinterpret_cast<void*>(&own_module)));
-  return module;
+  static constinit std::atomic<std::uintptr_t> begin{0}, end{0};
+  if (end.load(std::memory_order_acquire) == 0) {
+    const Module module = module_of(number_of(reinterpret_cast<void*>(&is_own)));
+    begin.store(module.begin, std::memory_order_relaxed);
+    end.store(module.end, std::memory_order_release);
+  }
+  return begin.load(std::memory_order_relaxed) <= address &&
+         address < end.load(std::memory_order_relaxed);
 }
 
 /// Whether a module defines itself what makes a libode.
@@ -142,7 +147,7 @@ Libode* know(std::uintptr_t address) {
     if (libode->contains(address)) return libode;
   }
   const Module module = module_of(address);
-  if (module.end == 0 || own_module().contains(address)) return nullptr;
+  if (module.end == 0 || is_own(address)) return nullptr;
   void* const handle = open_module_of(address);
   if (handle == nullptr) return nullptr;
   void* const memory = is_libode(handle, module) ? std::malloc(sizeof(Libode)) : nullptr;
@@ -213,7 +218,7 @@ Libode* global_libode() {
 
 /// The one that a module was linked to, or null.
 Libode* libode_linked_to(std::uintptr_t address) {
-  if (own_module().contains(address)) return nullptr;
+  if (is_own(address)) return nullptr;
   void* const handle = open_module_of(address);
   if (handle == nullptr) return nullptr;
   Libode* libode = nullptr;
@@ -251,7 +256,7 @@ void* find_in_libode(const Libode& libode, const char* name) {
     if (void* const found = dlsym(RTLD_NEXT, name)) return found;
   }
   void* const found = dlsym(libode.handle, name);
-  return own_module().contains(number_of(found)) ? nullptr : found;
+  return is_own(number_of(found)) ? nullptr : found;
 }
 
 }  // namespace harpoon::ode

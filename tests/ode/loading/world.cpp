@@ -76,7 +76,7 @@ class World {
     }
   }
   void add() {
-    const std::uint64_t kind = random_.below(2 * shapes);
+    const std::uint64_t kind = random_.below(std::uint64_t{2} * shapes);
     const Shape shape = kind < shapes ? static_cast<Shape>(kind) : sphere;
     const dGeomID geom = create(shape, random_.below(10) == 0 ? inner_ : space_);
     dGeomSetData(geom, reinterpret_cast<void*>(++named_));

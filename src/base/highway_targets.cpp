@@ -1,13 +1,15 @@
-// Highway's two functions that are not in its headers, for x86. Its shared library measures the
-// clock while it is loaded, by an instruction that not every machine has: valgrind's for one. So
-// Harpoon does without it. Private to the library, so that a program may have Highway's own beside
-// it.
+// Highway's functions that we use and that are not in its headers, for x86. Its shared library
+// measures the clock while it is loaded, by an instruction that not every machine has: valgrind's
+// for one. So Harpoon does without it. Private to the library, so that a program may have Highway's
+// own beside it.
 
 #include <hwy/targets.h>
 
 #if HWY_ARCH_X86
 
 #include <cpuid.h>
+
+#include <cstdlib>
 
 namespace hwy {
 namespace {
@@ -54,6 +56,11 @@ std::int64_t SupportedTargets() {
 ChosenTarget& GetChosenTarget() {
   static ChosenTarget chosen;
   return chosen;
+}
+
+/// Where an assertion of Highway's fails, which only builds with sanitizers have.
+void Abort(const char*, int, const char*, ...) {
+  std::abort();
 }
 
 }  // namespace hwy

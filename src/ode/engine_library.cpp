@@ -16,12 +16,6 @@ namespace {
 
 constexpr const char* kFile = "/libharpoon_ode_engine.so";
 
-bool is_own(const void* address) {
-  Dl_info own{}, other{};
-  return dladdr(reinterpret_cast<const void*>(&is_own), &own) != 0 &&
-         dladdr(address, &other) != 0 && own.dli_fbase == other.dli_fbase;
-}
-
 /// The folder of this library when it was loaded: the name that it was loaded by may be relative,
 /// and the program's folder another one now. False when nobody knows.
 bool own_folder(char (&folder)[PATH_MAX]) {
@@ -55,10 +49,11 @@ void* find(void* libode, const char* name) {
 
 void* find_in_front(const char* name) {
   void* const found = dlsym(RTLD_DEFAULT, name);
-  if (found == nullptr || is_own(found)) return found;
+  const auto address = reinterpret_cast<std::uintptr_t>(found);
+  if (found == nullptr || is_own(address)) return found;
   for (const Libode* libode = libodes.load(std::memory_order_acquire); libode != nullptr;
        libode = libode->next) {
-    if (libode->contains(reinterpret_cast<std::uintptr_t>(found))) return nullptr;
+    if (libode->contains(address)) return nullptr;
   }
   return found;
 }
@@ -80,7 +75,6 @@ void set_geom_moved(void* libode, GeomMoved* function) {
 }  // namespace
 
 void* find_in_engine_library(const char* name) {
-  enum class State { unopened, failed, open };
   static constinit std::atomic<void*> opened{nullptr};
   static constinit std::atomic<bool> tried{false};
   void* library = opened.load(std::memory_order_acquire);

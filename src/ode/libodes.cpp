@@ -76,18 +76,6 @@ const char* path_of(void* handle) {
   return static_cast<link_map*>(handle)->l_name;
 }
 
-bool is_own(std::uintptr_t address) {
-  // Threads that come at once write the same.
-  static constinit std::atomic<std::uintptr_t> begin{0}, end{0};
-  if (end.load(std::memory_order_acquire) == 0) {
-    const Module module = module_of(number_of(reinterpret_cast<void*>(&is_own)));
-    begin.store(module.begin, std::memory_order_relaxed);
-    end.store(module.end, std::memory_order_release);
-  }
-  return begin.load(std::memory_order_relaxed) <= address &&
-         address < end.load(std::memory_order_relaxed);
-}
-
 /// Whether a module defines itself what makes a libode.
 bool is_libode(void* handle, const Module& module) {
   for (const char* mark : kMarks) {
@@ -233,6 +221,18 @@ Libode* libode_linked_to(std::uintptr_t address) {
 }
 
 }  // namespace
+
+bool is_own(std::uintptr_t address) {
+  // Threads that come at once write the same.
+  static constinit std::atomic<std::uintptr_t> begin{0}, end{0};
+  if (end.load(std::memory_order_acquire) == 0) {
+    const Module module = module_of(number_of(reinterpret_cast<void*>(&is_own)));
+    begin.store(module.begin, std::memory_order_relaxed);
+    end.store(module.end, std::memory_order_release);
+  }
+  return begin.load(std::memory_order_relaxed) <= address &&
+         address < end.load(std::memory_order_relaxed);
+}
 
 Libode* find_libode_of(const void* object) {
   know_all();

@@ -58,6 +58,9 @@ Libode* libode_of_caller(const void* return_address);
 /// Its function of that name as a program would reach it, or null.
 void* find_in_libode(const Libode& libode, const char* name);
 
+/// Whether an address is in this library.
+bool is_own(std::uintptr_t address);
+
 /// Called when a libode was found and when one's `collide` or `geom_moved` was set.
 void routes_changed();
 

@@ -21,8 +21,9 @@ import libode_variants  # noqa: E402
 LIBRARIES, PROGRAMS = (pathlib.Path(sys.argv.pop(1)).resolve() for _ in range(2))
 PRELOAD = LIBRARIES / "libharpoon_ode.so"
 HOST = PROGRAMS / "ode_loading_host"
-WORLD, SMALL_WORLD, FOREIGN = (PROGRAMS / f"ode_loading_{name}.so"
-                               for name in ("world", "small_world", "foreign"))
+WORLD, SMALL_WORLD, FOREIGN, FAILING_NEW = (
+    PROGRAMS / f"ode_loading_{name}.so"
+    for name in ("world", "small_world", "foreign", "failing_new"))
 LIBODE = libode_variants.installed_libode()
 DEAF = "does not tell of every change"
 # What small_world needs in order to be loaded at all.
@@ -186,6 +187,18 @@ class Loading(unittest.TestCase):
         ours = run([HOST, WORLD], prefix=["valgrind", "-q", "--error-exitcode=9"])
         self.assertEqual((ours.returncode, ours.stdout), (0, stock.stdout), ours.stderr)
         self.assertRegex(ours.stderr, r"[1-9]\d* searched, [1-9]\d* updated")
+
+    def test_an_allocation_that_fails_leaves_the_call_to_libode(self):
+        stock = run([HOST, SMALL_WORLD], preload=None).stdout
+        failed = 0
+        for always in ({}, {"FAIL_ALWAYS": "1"}):
+            for number in range(0, 48, 2) if always else range(1, 48, 2):
+                with self.subTest(number=number, always=bool(always)):
+                    done = run([HOST, SMALL_WORLD], preload=f"{PRELOAD}:{FAILING_NEW}",
+                               HARPOON_STATS="0", FAIL_AT=str(number), **always)
+                    self.assertEqual((done.returncode, done.stdout), (0, stock), done.stderr)
+                    failed += "out of memory" in done.stderr
+        self.assertGreater(failed, 10)
 
     def test_silence_is_broken_where_no_call_arrives(self):
         for option in ("HARPOON_STATS", "HARPOON_VERIFY"):

@@ -19,6 +19,7 @@ constexpr const char* kExitCodes =
     "  1    the command ran and found a failure (a mismatch, a missed target)\n"
     "  2    usage: unknown command or option, bad value\n"
     "  3    environment: a file, device, package or memory that is not there\n"
+    "  5    run --require: no call of ODE was served\n"
     "  130  interrupted by SIGINT or SIGTERM; no file was written\n\n"
     "Environment:\n"
     "  NO_COLOR  when set and not empty, no colours are used\n\n"

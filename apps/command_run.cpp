@@ -17,6 +17,7 @@ struct RunOptions {
   std::string device = "cpu";
   bool verify = false;
   bool statistics = false;
+  bool require = false;
   std::vector<std::string> command;
 };
 
@@ -24,11 +25,15 @@ void run(const RunOptions& options) {
   if (options.command.empty()) {
     throw CommandError(ExitCode::usage, "No command to run. Give one after --.");
   }
-  run_with_drop_in(options.command, {{"HARPOON_ODE", options.policy},
-                                     {"HARPOON_PRECISION", options.precision},
-                                     {"HARPOON_DEVICE", options.device},
-                                     {"HARPOON_VERIFY", options.verify ? "1" : "0"},
-                                     {"HARPOON_STATS", options.statistics ? "1" : "0"}});
+  const std::vector<Variable> variables = {{"HARPOON_ODE", options.policy},
+                                           {"HARPOON_PRECISION", options.precision},
+                                           {"HARPOON_DEVICE", options.device},
+                                           {"HARPOON_VERIFY", options.verify ? "1" : "0"},
+                                           {"HARPOON_STATS", options.statistics ? "1" : "0"}};
+  if (options.verify || options.statistics || options.require) {
+    run_and_watch(options.command, variables, {.require = options.require});
+  }
+  run_with_drop_in(options.command, variables);
 }
 
 }  // namespace
@@ -48,10 +53,14 @@ void add_run(CLI::App& root, Context& context) {
       ->capture_default_str();
   command->add_flag("--verify", options->verify, "Compare every pair and contact with stock ODE");
   command->add_flag("--stats", options->statistics, "Print one line of statistics at the end");
+  command->add_flag("--require", options->require,
+                    "Exit code 5 when no call of ODE was served, whatever the program's is");
   command->add_option("command", options->command, "The program and its arguments, after --")
       ->type_name("COMMAND");
   command->footer(
-      "The same as LD_PRELOAD=libharpoon_ode.so and variables HARPOON_...; see docs/ode.md.\n\n"
+      "The same as LD_PRELOAD=libharpoon_ode.so and variables HARPOON_...; see docs/ode.md. With\n"
+      "--stats, --verify or --require it waits for the program and says so when no call of ODE\n"
+      "arrived.\n\n"
       "Examples:\n"
       "  harpoon run --stats -- ./my_simulation\n"
       "  harpoon run --verify -- python3 pile.py");

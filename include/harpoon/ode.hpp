@@ -9,6 +9,7 @@
 #include <cstdarg>
 #include <memory>
 #include <span>
+#include <utility>
 
 #include "harpoon/device.hpp"
 #include "harpoon/error.hpp"
@@ -136,6 +137,35 @@ struct ColliderOptions {
   LogCallback log = {};
 };
 
+namespace detail {
+
+/// What a collider is made of, in libharpoon_ode_engine. That library is loaded when the first is
+/// made, for most programs that load libharpoon_ode never make one.
+template <class Real>
+class ColliderWork {
+ public:
+  virtual ~ColliderWork() = default;
+  virtual void space_collide(dxSpace* space, void* data, NearCallback* callback) = 0;
+  virtual void space_collide2(dxGeom* o1, dxGeom* o2, void* data, NearCallback* callback) = 0;
+  virtual int collide(dxGeom* o1, dxGeom* o2, int flags, ContactGeomOf<Real>* contacts,
+                      int skip) = 0;
+  virtual Result<std::span<const ContactGeomOf<Real>>> contacts(dxSpace* space,
+                                                                int max_contacts) noexcept = 0;
+  virtual void sap_created(dxSpace* space, int axis_order) = 0;
+  virtual void destroying(dxSpace* space) = 0;
+};
+
+}  // namespace detail
+}  // namespace harpoon::ode
+
+/// Behind `ColliderOf::make`: puts the ColliderWork or an error into `*collider`, a Result of a
+/// unique_ptr of it. False when the library that makes it cannot be loaded.
+extern "C" HARPOON_API bool harpoon_ode_make_collider(int real_bytes, const void* ode,
+                                                      const harpoon::ode::ColliderOptions* options,
+                                                      void* collider);
+
+namespace harpoon::ode {
+
 /// Collides spaces as ODE does: the same pairs in the same order, the same contacts.
 ///
 /// Nothing tells it of changes, so every call reads all geoms of the space, and callbacks must not
@@ -144,39 +174,52 @@ struct ColliderOptions {
 /// they and quadtrees are otherwise collided by ODE. Threads: as ODE, spaces of different threads
 /// at the same time.
 template <class Real>
-class HARPOON_API ColliderOf {
+class ColliderOf {
  public:
-  /// Errors: invalid_argument (a function is missing), out_of_memory.
+  /// Errors: invalid_argument (a function is missing), out_of_memory, device_unavailable
+  /// (libharpoon_ode_engine.so is not beside libharpoon_ode.so).
   static Result<ColliderOf> make(const LibodeOf<Real>& ode,
-                                 const ColliderOptions& options = {}) noexcept;
-  ColliderOf(ColliderOf&& other) noexcept;
-  ColliderOf& operator=(ColliderOf&& other) noexcept;
-  ColliderOf(const ColliderOf&) = delete;
-  ColliderOf& operator=(const ColliderOf&) = delete;
-  ~ColliderOf();
+                                 const ColliderOptions& options = {}) noexcept {
+    Result<std::unique_ptr<Work>> made = Error{};
+    if (!harpoon_ode_make_collider(sizeof(Real), &ode, &options, &made)) {
+      return Error{Errc::device_unavailable,
+                   "libharpoon_ode_engine.so is not beside libharpoon_ode.so. Install the whole of "
+                   "Harpoon."};
+    }
+    if (!made) return made.error();
+    return ColliderOf(std::move(*made));
+  }
 
   /// dSpaceCollide. Call `collide` in the callback, or dCollide.
-  void space_collide(dxSpace* space, void* data, NearCallback* callback);
+  void space_collide(dxSpace* space, void* data, NearCallback* callback) {
+    work_->space_collide(space, data, callback);
+  }
   /// dSpaceCollide2.
-  void space_collide2(dxGeom* o1, dxGeom* o2, void* data, NearCallback* callback);
+  void space_collide2(dxGeom* o1, dxGeom* o2, void* data, NearCallback* callback) {
+    work_->space_collide2(o1, o2, data, callback);
+  }
   /// dCollide: faster than ODE's for the spheres of the pair at hand.
-  int collide(dxGeom* o1, dxGeom* o2, int flags, ContactGeomOf<Real>* contacts, int skip);
+  int collide(dxGeom* o1, dxGeom* o2, int flags, ContactGeomOf<Real>* contacts, int skip) {
+    return work_->collide(o1, o2, flags, contacts, skip);
+  }
 
   /// All contacts among the geoms of a space, without a callback: for each pair what dCollide gives
   /// with `max_contacts` (1 to 65535), pairs in the order of callbacks. Spaces within the space are
   /// geoms to it. Valid until the next call. Errors: invalid_argument, out_of_memory.
-  Result<std::span<const ContactGeomOf<Real>>> contacts(dxSpace* space, int max_contacts) noexcept;
+  Result<std::span<const ContactGeomOf<Real>>> contacts(dxSpace* space, int max_contacts) noexcept {
+    return work_->contacts(space, max_contacts);
+  }
 
   /// After dSweepAndPruneSpaceCreate, before the space is first collided.
-  void sap_created(dxSpace* space, int axis_order);
+  void sap_created(dxSpace* space, int axis_order) { work_->sap_created(space, axis_order); }
   /// Before a space is destroyed, so that another at its address is not taken for it.
-  void destroying(dxSpace* space);
-
-  struct State;
+  void destroying(dxSpace* space) { work_->destroying(space); }
 
  private:
-  explicit ColliderOf(std::unique_ptr<State> state) noexcept;
-  std::unique_ptr<State> state_;
+  using Work = detail::ColliderWork<Real>;
+
+  explicit ColliderOf(std::unique_ptr<Work> work) noexcept : work_(std::move(work)) {}
+  std::unique_ptr<Work> work_;
 };
 
 }  // namespace harpoon::ode

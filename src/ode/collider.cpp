@@ -12,12 +12,6 @@
 
 namespace harpoon::ode {
 
-template <class Real>
-struct ColliderOf<Real>::State {
-  std::unique_ptr<Engine> engine;
-  std::vector<ContactGeomOf<Real>> contacts;
-};
-
 namespace {
 
 /// Gathers all contacts of a space.
@@ -53,82 +47,81 @@ bool is_complete(const LibodeOf<Real>& ode) {
                       [](const void* entry) { return entry == nullptr; });
 }
 
-}  // namespace
+template <class Real>
+class Collider final : public detail::ColliderWork<Real> {
+ public:
+  explicit Collider(std::unique_ptr<Engine> engine) : engine_(std::move(engine)) {}
 
-template <class Real>
-ColliderOf<Real>::ColliderOf(std::unique_ptr<State> state) noexcept : state_(std::move(state)) {}
-template <class Real>
-ColliderOf<Real>::ColliderOf(ColliderOf&& other) noexcept = default;
-template <class Real>
-ColliderOf<Real>& ColliderOf<Real>::operator=(ColliderOf&& other) noexcept = default;
-template <class Real>
-ColliderOf<Real>::~ColliderOf() = default;
-
-template <class Real>
-Result<ColliderOf<Real>> ColliderOf<Real>::make(const LibodeOf<Real>& ode,
-                                                const ColliderOptions& options) noexcept {
-  try {
-    if (!is_complete(ode)) {
-      return Error{Errc::invalid_argument,
-                   "a function of ODE is missing; set every member of the table"};
+  void space_collide(dxSpace* space, void* data, NearCallback* callback) override {
+    engine_->space_collide(space, data, callback);
+  }
+  void space_collide2(dxGeom* o1, dxGeom* o2, void* data, NearCallback* callback) override {
+    engine_->space_collide2(o1, o2, data, callback);
+  }
+  int collide(dxGeom* o1, dxGeom* o2, int flags, ContactGeomOf<Real>* contacts, int skip) override {
+    return engine_->collide(o1, o2, flags, contacts, skip);
+  }
+  Result<std::span<const ContactGeomOf<Real>>> contacts(dxSpace* space,
+                                                        int max_contacts) noexcept override {
+    if (space == nullptr || max_contacts < 1 || max_contacts > kContactCountMask) {
+      return Error{Errc::invalid_argument, "give a space and 1 to 65535 contacts for each pair"};
     }
-    Result<std::unique_ptr<Device>> cpu = make_cpu_device({.threads = 1});
-    if (!cpu) return cpu.error();
-    Options engine_options;
-    engine_options.policy = options.with_missed_pairs ? Policy::fixed : Policy::compat;
-    engine_options.changes_are_reported = false;
-    auto engine = make_engine<Real>(
-        ode,
-        {.options = engine_options, .device = std::move(*cpu), .log = options.log, .differs = {}});
-    if (!engine) return engine.error();
-    auto state = std::make_unique<State>();
-    state->engine = std::move(*engine);
-    return ColliderOf(std::move(state));
+    contacts_.clear();
+    Gatherer<Real> gatherer{*engine_, contacts_, max_contacts};
+    engine_->space_collide(space, &gatherer, &Gatherer<Real>::near);
+    if (gatherer.out_of_memory) return Error{Errc::out_of_memory, "out of memory"};
+    return std::span<const ContactGeomOf<Real>>(contacts_);
+  }
+  void sap_created(dxSpace* space, int axis_order) override {
+    engine_->sap_created(space, axis_order);
+  }
+  void destroying(dxSpace* space) override { engine_->destroying(as_geom(space)); }
+
+ private:
+  std::unique_ptr<Engine> engine_;
+  std::vector<ContactGeomOf<Real>> contacts_;
+};
+
+template <class Real>
+Result<std::unique_ptr<detail::ColliderWork<Real>>> make(const LibodeOf<Real>& ode,
+                                                         const ColliderOptions& options) {
+  if (!is_complete(ode)) {
+    return Error{Errc::invalid_argument,
+                 "a function of ODE is missing; set every member of the table"};
+  }
+  Result<std::unique_ptr<Device>> cpu = make_cpu_device({.threads = 1});
+  if (!cpu) return cpu.error();
+  Options engine_options;
+  engine_options.policy = options.with_missed_pairs ? Policy::fixed : Policy::compat;
+  engine_options.changes_are_reported = engine_options.callbacks_may_change = false;
+  auto engine = make_engine<Real>(
+      ode,
+      {.options = engine_options, .device = std::move(*cpu), .log = options.log, .differs = {}});
+  if (!engine) return engine.error();
+  return std::unique_ptr<detail::ColliderWork<Real>>(
+      std::make_unique<Collider<Real>>(std::move(*engine)));
+}
+
+template <class Real>
+void make_into(const void* ode, const ColliderOptions& options, void* collider) {
+  auto& made = *static_cast<Result<std::unique_ptr<detail::ColliderWork<Real>>>*>(collider);
+  try {
+    made = make(*static_cast<const LibodeOf<Real>*>(ode), options);
   } catch (const std::bad_alloc&) {
-    return Error{Errc::out_of_memory, "out of memory"};
+    made = Error{Errc::out_of_memory, "out of memory"};
   }
 }
 
-template <class Real>
-void ColliderOf<Real>::space_collide(dxSpace* space, void* data, NearCallback* callback) {
-  state_->engine->space_collide(space, data, callback);
-}
-
-template <class Real>
-void ColliderOf<Real>::space_collide2(dxGeom* o1, dxGeom* o2, void* data, NearCallback* callback) {
-  state_->engine->space_collide2(o1, o2, data, callback);
-}
-
-template <class Real>
-int ColliderOf<Real>::collide(dxGeom* o1, dxGeom* o2, int flags, ContactGeomOf<Real>* contacts,
-                              int skip) {
-  return state_->engine->collide(o1, o2, flags, contacts, skip);
-}
-
-template <class Real>
-Result<std::span<const ContactGeomOf<Real>>> ColliderOf<Real>::contacts(dxSpace* space,
-                                                                        int max_contacts) noexcept {
-  if (space == nullptr || max_contacts < 1 || max_contacts > kContactCountMask) {
-    return Error{Errc::invalid_argument, "give a space and 1 to 65535 contacts for each pair"};
-  }
-  state_->contacts.clear();
-  Gatherer<Real> gatherer{*state_->engine, state_->contacts, max_contacts};
-  state_->engine->space_collide(space, &gatherer, &Gatherer<Real>::near);
-  if (gatherer.out_of_memory) return Error{Errc::out_of_memory, "out of memory"};
-  return std::span<const ContactGeomOf<Real>>(state_->contacts);
-}
-
-template <class Real>
-void ColliderOf<Real>::sap_created(dxSpace* space, int axis_order) {
-  state_->engine->sap_created(space, axis_order);
-}
-
-template <class Real>
-void ColliderOf<Real>::destroying(dxSpace* space) {
-  state_->engine->destroying(as_geom(space));
-}
-
-template class HARPOON_API ColliderOf<float>;
-template class HARPOON_API ColliderOf<double>;
-
+}  // namespace
 }  // namespace harpoon::ode
+
+extern "C" bool harpoon_ode_make_collider(int real_bytes, const void* ode,
+                                          const harpoon::ode::ColliderOptions* options,
+                                          void* collider) {
+  if (real_bytes == sizeof(float)) {
+    harpoon::ode::make_into<float>(ode, *options, collider);
+  } else {
+    harpoon::ode::make_into<double>(ode, *options, collider);
+  }
+  return true;
+}

@@ -113,10 +113,11 @@ class EngineOf final : public Engine {
   void class_created(int number, AabbTest* test) override;
   void collider_overridden(int class1, int class2) override;
   void closed() override;
+  void lost_track() noexcept override;
 
   [[nodiscard]] const Statistics& statistics() const override { return statistics_; }
   [[nodiscard]] std::string report() const override {
-    return to_line(statistics_, parts_.device->name());
+    return to_line(statistics_, parts_.device->name(), options_.changes_are_reported);
   }
 
  private:
@@ -143,6 +144,12 @@ class EngineOf final : public Engine {
   Record* put(dxSpace* space, std::shared_ptr<Record> record);
   void begin_to_listen();
   void expect_frames();
+  /// Where moves are not told of, what callbacks move cannot be seen: dSpaceCollide2 does not lock
+  /// its probe, and some builds lock nothing.
+  [[nodiscard]] bool sees_all_of_scans() const {
+    return options_.changes_are_reported || !options_.callbacks_may_change;
+  }
+  [[nodiscard]] bool sees_all() const { return sees_all_of_scans() || locks_are_checked_; }
   [[nodiscard]] Record* record_to_collide(dxSpace* space, int kind);
   [[nodiscard]] bool prepare(Record& record);
   void note_changes(Record& record) {
@@ -184,17 +191,19 @@ class EngineOf final : public Engine {
   void loop(const ScanCall& call, dxGeom* first, Frame<Real>& frame, const Replayer<Real>& replayer,
             std::vector<GeomPair>& pairs);
   [[nodiscard]] Handover<Real> handover() {
-    return {ode_, parts_.log, statistics_, locks_are_checked_.load(std::memory_order_relaxed)};
+    return {ode_, parts_.log, statistics_, locks_are_checked_};
   }
   /// A quadtree's blocks are libode's secret.
   [[nodiscard]] bool can_scan(dxSpace* space) const {
     return kind_of(as_geom(space)) != geom_class::kQuadtreeSpace;
   }
   [[nodiscard]] bool spheres_are_ours();
+  [[nodiscard]] bool is_as_mirrored(const Mirror<Real>& mirror, IndexPair pair) const;
   int answer_contact(Frame<Real>& frame, int flags, ContactGeomOf<Real>& contact, int skip);
   void leave_to_stock(dxSpace* space, void* data, NearCallback* callback) {
     // Small spaces come this way, whose calls are so short that counting them shows.
     if (options_.statistics) Statistics::add(statistics_.left_to_stock, 1);
+    ++walks_begun;
     ode_.space_collide(space, data, callback);
   }
   void warn(std::string_view line) const {
@@ -208,11 +217,11 @@ class EngineOf final : public Engine {
   SpaceTable<Record> table_;
   std::atomic<bool> listens_{false};
   std::atomic<bool> expects_frames_{false};
-  std::atomic<bool> locks_are_checked_{false};
   std::atomic<std::uint64_t> looks_{1};  ///< how often what is known of spaces has been renewed
   UserTests user_tests_{};
-  GeomLayout layout_;  ///< found when the first space is looked at
-  std::once_flag layout_is_found_;
+  GeomLayout layout_;               ///< found when the first space is looked at
+  bool locks_are_checked_ = false;  ///< likewise
+  std::once_flag libode_is_known_;
   const GeomReader<Real> reader_{ode_, layout_, user_tests_};
   const Refresher<Real> refresher_{reader_, options_, parts_.log, statistics_};
   ContactSource source_;
@@ -260,7 +269,10 @@ int EngineOf<Real>::min_geoms(int kind) const {
 template <class Real>
 void EngineOf<Real>::begin_to_listen() {
   if (listens_.load(std::memory_order_acquire)) return;
-  std::call_once(layout_is_found_, [this] { layout_ = find_geom_layout(ode_); });
+  std::call_once(libode_is_known_, [this] {
+    layout_ = find_geom_layout(ode_);
+    locks_are_checked_ = options_.callbacks_may_change && checks_locks(ode_);
+  });
   if (parts_.before_first_space) parts_.before_first_space();
   listens_.store(true, std::memory_order_release);
 }
@@ -280,13 +292,10 @@ SpaceRecord<Real>* EngineOf<Real>::put(dxSpace* space, std::shared_ptr<Record> r
   return table_.put(space, std::move(record));
 }
 
-/// To be called before a frame is opened. Throws std::bad_alloc.
+/// To be called before a frame is opened.
 template <class Real>
 void EngineOf<Real>::expect_frames() {
   if (expects_frames_.load(std::memory_order_acquire)) return;
-  if (options_.changes_are_reported) {
-    locks_are_checked_.store(checks_locks(ode_), std::memory_order_relaxed);
-  }
   if (parts_.before_first_frame) parts_.before_first_frame();
   expects_frames_.store(true, std::memory_order_release);
 }
@@ -441,6 +450,7 @@ void EngineOf<Real>::record_or_replay(Record& record, void* data, NearCallback* 
   record.recorded.clear();
   record.pairs_valid = false;
   Recorder recorder{record.recorded, data, callback};
+  ++walks_begun;
   ode_.space_collide(record.space, &recorder, &Recorder::near);
   record.recorded_valid = recorder.complete && !record.changed.load(std::memory_order_relaxed);
   Statistics::add(statistics_.pairs, record.recorded.size());
@@ -456,7 +466,8 @@ SpaceRecord<Real>* EngineOf<Real>::record_to_collide(dxSpace* space, int kind) {
     return nullptr;
   }
   try {
-    return find_or_make(space, kind);
+    begin_to_listen();
+    return sees_all() ? find_or_make(space, kind) : nullptr;
   } catch (const std::bad_alloc&) {
     warn(kOutOfMemory);
     return nullptr;
@@ -466,6 +477,7 @@ SpaceRecord<Real>* EngineOf<Real>::record_to_collide(dxSpace* space, int kind) {
 template <class Real>
 void EngineOf<Real>::space_collide(dxSpace* space, void* data, NearCallback* callback) {
   if (space == nullptr || callback == nullptr) {
+    ++walks_begun;
     ode_.space_collide(space, data, callback);
     return;
   }
@@ -634,13 +646,16 @@ std::optional<typename EngineOf<Real>::ScanCall> EngineOf<Real>::scan_call(dxGeo
   } else {
     return std::nullopt;
   }
-  if (most < options_.min_geoms_scan || !can_scan(call.scanned)) return std::nullopt;
+  if (most < options_.min_geoms_scan || !can_scan(call.scanned) || !sees_all_of_scans()) {
+    return std::nullopt;
+  }
   return call;
 }
 
 template <class Real>
 void EngineOf<Real>::space_collide2(dxGeom* o1, dxGeom* o2, void* data, NearCallback* callback) {
   if (o1 == nullptr || o2 == nullptr || callback == nullptr) {
+    ++walks_begun;
     ode_.space_collide2(o1, o2, data, callback);
     return;
   }
@@ -653,7 +668,9 @@ void EngineOf<Real>::space_collide2(dxGeom* o1, dxGeom* o2, void* data, NearCall
   const bool answered = call && answer_scan(*call, data, callback);
   if (answered && call->looped != nullptr) Statistics::add(statistics_.scanned_spaces, 1);
   Statistics::add(answered ? statistics_.scanned : statistics_.left_to_stock, 1);
-  if (!answered) ode_.space_collide2(o1, o2, data, callback);
+  if (answered) return;
+  ++walks_begun;
+  ode_.space_collide2(o1, o2, data, callback);
 }
 
 /// Tried once, at the first pair of spheres: libode is initialised by then.
@@ -671,6 +688,22 @@ bool EngineOf<Real>::spheres_are_ours() {
     }
   }
   return agreement == Agreement::yes;
+}
+
+/// Whether a pair's geoms are spheres where the mirror has them, on the bodies that it has.
+template <class Real>
+bool EngineOf<Real>::is_as_mirrored(const Mirror<Real>& mirror, IndexPair pair) const {
+  if (!mirror.are_spheres(pair)) return false;
+  for (const std::uint32_t slot : {pair.g1, pair.g2}) {
+    dxGeom* const geom = mirror.geoms[slot];
+    const Real* const at = reader_.position_of(geom);
+    const SphereOf<Real>& sphere = mirror.spheres[slot];
+    if (at[0] != sphere.x || at[1] != sphere.y || at[2] != sphere.z ||
+        reader_.radius_of(geom) != sphere.r || reader_.body_of(geom) != mirror.bodies[slot]) {
+      return false;
+    }
+  }
+  return true;
 }
 
 /// The contact of the frame's pair: 0 or 1 as dCollide, -1 when it is libode's.
@@ -692,6 +725,11 @@ int EngineOf<Real>::answer_contact(Frame<Real>& frame, int flags, ContactGeomOf<
       contacts.reset();
       return -1;
     }
+  }
+  // Nobody tells what callbacks do meanwhile.
+  if (!options_.changes_are_reported &&
+      !is_as_mirrored(record.mirror, record.pairs[frame.number])) {
+    return -1;
   }
   using Answer = typename SphereContacts<Real>::Answer;
   const Answer answer = contacts.find(record.mirror, record.pairs, frame.number);
@@ -786,10 +824,12 @@ void EngineOf<Real>::toggled(dxGeom* geom) {
   }
 }
 
+/// The bounds of the space may have changed with its geoms: to the spaces around it it has moved.
 template <class Real>
 void EngineOf<Real>::added(dxSpace* space) {
   if (table_.empty() || space == nullptr) return;
   if (Record* record = table_.find(space)) record->mark_changed_with_contacts();
+  if (dxSpace* const outer = ode_.geom_get_space(as_geom(space))) note_move(as_geom(space), outer);
 }
 
 /// libode's traversals of other builds go on with a geom that has been removed, or end: there the
@@ -797,7 +837,7 @@ void EngineOf<Real>::added(dxSpace* space) {
 template <class Real>
 void EngineOf<Real>::removed(dxSpace* space, dxGeom* geom) {
   added(space);
-  if (!locks_are_checked_.load(std::memory_order_relaxed)) return;
+  if (!locks_are_checked_) return;
   for (Frame<Real>* frame = Frame<Real>::current(); frame != nullptr; frame = frame->outer) {
     if (frame->space == space) frame->forget(geom);
   }
@@ -849,6 +889,12 @@ void EngineOf<Real>::collider_overridden(int class1, int class2) {
     spheres_.store(Agreement::no, std::memory_order_relaxed);
     table_.for_each([](Record& record) { record.mark_changed_with_contacts(); });
   }
+}
+
+template <class Real>
+void EngineOf<Real>::lost_track() noexcept {
+  table_.for_each([](Record& record) { record.mark_changed_with_contacts(); });
+  count_look();
 }
 
 template <class Real>

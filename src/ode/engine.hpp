@@ -53,6 +53,9 @@ class Engine {
   /// dCloseODE.
   virtual void closed() = 0;
 
+  /// An event could not be noted: nothing that is known holds any more. Allocates nothing.
+  virtual void lost_track() noexcept = 0;
+
   [[nodiscard]] virtual const Statistics& statistics() const = 0;
   /// `statistics` and the device that serves contacts, as one line.
   [[nodiscard]] virtual std::string report() const = 0;

@@ -16,6 +16,10 @@
 
 namespace harpoon::ode {
 
+/// How often this thread began to call callbacks, ours or libode's own way: from then on a call
+/// cannot be begun anew.
+inline constinit thread_local unsigned walks_begun = 0;
+
 /// Frames on this thread's stack: without any dCollide is libode's at once.
 inline constinit thread_local int open_frames = 0;
 
@@ -49,6 +53,7 @@ struct Frame {
         outer(current()) {
     current() = this;
     ++open_frames;
+    ++walks_begun;
   }
   ~Frame() {
     current() = outer;

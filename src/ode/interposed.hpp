@@ -1,18 +1,12 @@
 #pragma once
 
-// The functions of libode that the preload stands in front of: their addresses in the real library,
-// found at run time, whichever way the program has loaded it.
+// The functions of libode that libharpoon_ode stands in front of, as one libode has them.
 
 #include "ode/types.hpp"
 
 namespace harpoon::ode {
 
-/// The first function of that name behind the preload, or null. Looks through the libraries in the
-/// order of the dynamic linker and then through a libode that was loaded privately, as Python
-/// modules do.
-void* find_in_libode(const char* name);
-
-/// Those that are interposed. `dCreateGeomClass` is passed on unread but for one member.
+/// Null where a libode lacks one. `dCreateGeomClass` is passed on unread but for one member.
 struct Interposed {
   void (*space_collide)(dxSpace*, void*, NearCallback*);
   void (*space_collide2)(dxGeom*, dxGeom*, void*, NearCallback*);
@@ -28,15 +22,15 @@ struct Interposed {
   void (*space_add)(dxSpace*, dxGeom*);
   void (*space_remove)(dxSpace*, dxGeom*);
   void (*hash_space_set_levels)(dxSpace*, int, int);
+  dxSpace* (*simple_space_create)(dxSpace*);
+  dxSpace* (*hash_space_create)(dxSpace*);
+  dxSpace* (*quadtree_space_create)(dxSpace*, const void*, const void*, int);
   dxSpace* (*sap_space_create)(dxSpace*, int);
   int (*create_geom_class)(const void*);
   void (*set_collider_override)(int, int, void*);
+  void (*init_ode)();
+  int (*init_ode2)(unsigned);
   void (*close_ode)();
-  const char* (*get_configuration)();
 };
-
-/// Found at the first call. Ends the process with a message when there is no libode: nobody could
-/// have called then.
-const Interposed& libode();
 
 }  // namespace harpoon::ode

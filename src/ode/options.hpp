@@ -26,6 +26,8 @@ struct Options {
   bool single_precision_contacts = false;
   /// Whether every change of a geom is reported to the engine; otherwise each call reads all geoms.
   bool changes_are_reported = true;
+  /// Callbacks may change what is being collided, and are to see what libode makes of that.
+  bool callbacks_may_change = true;
   /// Spaces with fewer geoms are left to libode. By measurement (`harpoon bench ode`).
   int min_geoms_simple = 160;
   int min_geoms_hash = 8;

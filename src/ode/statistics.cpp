@@ -4,7 +4,7 @@
 
 namespace harpoon::ode {
 
-std::string to_line(const Statistics& s, std::string_view device) {
+std::string to_line(const Statistics& s, std::string_view device, bool changes_are_reported) {
   std::string line = fmt::format(
       "{} spaces; dSpaceCollide: {} searched, {} updated, {} unchanged, {} recorded, {} left to "
       "libode; "
@@ -25,6 +25,9 @@ std::string to_line(const Statistics& s, std::string_view device) {
   }
   if (s.verified_pairs.load() != 0) {
     line += fmt::format("; {} pairs verified", s.verified_pairs.load());
+  }
+  if (!changes_are_reported) {
+    line += "; changes are not reported by this libode: all geoms read in every call";
   }
   return line;
 }

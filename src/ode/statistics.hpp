@@ -33,7 +33,8 @@ struct Statistics {
   }
 };
 
-/// One line without newline.
-std::string to_line(const Statistics& statistics, std::string_view device);
+/// One line without newline. `device` serves contacts; where changes are not reported that is said.
+std::string to_line(const Statistics& statistics, std::string_view device,
+                    bool changes_are_reported);
 
 }  // namespace harpoon::ode

@@ -2,6 +2,9 @@
 
 #include <gtest/gtest.h>
 
+#include <csignal>
+#include <filesystem>
+
 #include "apps/files.hpp"
 #include "apps/process.hpp"
 #include "apps/scratch_folder.hpp"
@@ -26,6 +29,78 @@ TEST(RunCommand, SetsThePreloadAndTheVariables) {
 
 TEST(RunCommand, EndsAsTheProgramEnds) {
   EXPECT_EQ(run_piped({"run", "--", "/bin/sh", "-c", "exit 7"}).exit_code, 7);
+}
+
+TEST(RunCommand, EndsAsTheProgramEndsWhileItWaits) {
+  for (const char* option : {"--stats", "--verify", "--require"}) {
+    const Finished killed = run_piped({"run", option, "--", "/bin/sh", "-c", "kill -TERM $$"});
+    EXPECT_EQ(killed.exit_code, 128 + SIGTERM) << option;
+    const int expected = std::string(option) == "--require" ? 5 : 7;
+    EXPECT_EQ(run_piped({"run", option, "--", "/bin/sh", "-c", "exit 7"}).exit_code, expected);
+    const Finished absent = run_piped({"run", option, "--", "/no/such/program"});
+    EXPECT_EQ(absent.exit_code, 3);
+    EXPECT_TRUE(contains(absent.err, "/no/such/program")) << absent.err;
+  }
+}
+
+TEST(RunCommand, SignalsReachTheProgram) {
+  // It tells its parent to end, is told so itself, and ends in its own way.
+  const Finished f = run_piped({"run", "--stats", "--", "/bin/sh", "-c",
+                                "trap 'echo told; exit 3' TERM; kill -TERM $PPID; "
+                                "while :; do sleep 0.01; done"});
+  EXPECT_EQ(f.exit_code, 3) << f.err;
+  EXPECT_EQ(f.out, "told\n");
+}
+
+/// Programs that do without ODE, in all ways to end.
+TEST(RunCommand, SaysThatNoCallArrived) {
+  const char* const kSilence = "no call of ODE arrived at Harpoon";
+  for (const char* program : {"exit 0", "exec sh -c 'exit 0'", "(exit 0); sh -c true"}) {
+    for (const char* option : {"--stats", "--verify"}) {
+      const Finished f = run_piped({"run", option, "--", "/bin/sh", "-c", program});
+      EXPECT_EQ(f.exit_code, 0);
+      const std::size_t first = f.err.find(kSilence);
+      EXPECT_NE(first, std::string::npos) << f.err;
+      EXPECT_EQ(f.err.find(kSilence, first + 1), std::string::npos) << f.err;
+    }
+    const Finished required = run_piped({"run", "--require", "--", "/bin/sh", "-c", program});
+    EXPECT_EQ(required.exit_code, 5);
+    EXPECT_TRUE(contains(required.err, kSilence)) << required.err;
+  }
+  EXPECT_EQ(run_piped({"run", "--", "/bin/sh", "-c", "exit 0"}).err, "");
+}
+
+TEST(RunCommand, WhatIsRequiredMayHappenInAnyProcess) {
+  const ScratchFolder folder;
+  const std::string out = (folder / "out").string();
+  const auto diamond = [&](const Environment& environment) {
+    return run_piped({"run", "--require", "--", "/bin/sh", "-c",
+                      "cd / && \"$0\" diamond --steps 2 --out " + out + "; exit $?",
+                      std::filesystem::read_symlink("/proc/self/exe").parent_path() / "harpoon"},
+                     environment);
+  };
+  const Finished served = diamond({});
+  EXPECT_EQ(served.exit_code, 0) << served.err;
+  EXPECT_FALSE(contains(served.err, "ODE arrived")) << served.err;
+  const Finished refused = diamond({"HARPOON_MIN_GEOMS=many"});
+  EXPECT_EQ(refused.exit_code, 5) << refused.err;
+  EXPECT_TRUE(contains(refused.err, "could not serve them")) << refused.err;
+}
+
+/// The dynamic linker would stop reading there, and load nothing or another file.
+TEST(RunCommand, APathThatCannotBePreloadedIsNamed) {
+  for (const char* name : {"with space", "with:colon"}) {
+    const ScratchFolder folder;
+    const std::filesystem::path home = folder / name;
+    std::filesystem::create_directories(home / "bin");
+    std::filesystem::create_directories(home / "lib");
+    write_file(home / "lib" / "libharpoon_ode.so", "");
+    std::filesystem::copy(std::filesystem::read_symlink("/proc/self/exe").parent_path() / "harpoon",
+                          home / "bin" / "harpoon");
+    const Finished f = run_piped({"run", "--", home / "bin" / "harpoon", "run", "--", "true"});
+    EXPECT_EQ(f.exit_code, 3) << f.err;
+    EXPECT_TRUE(contains(f.err, "cannot be preloaded")) << f.err;
+  }
 }
 
 TEST(RunCommand, NamesWhatIsWrong) {

@@ -1,5 +1,6 @@
 #include "base/instruction_set.hpp"
 
+#include <dlfcn.h>
 #include <gtest/gtest.h>
 
 #include <set>
@@ -25,6 +26,17 @@ TEST(InstructionSet, NoNameIsTheWidestAndAnUnknownNameIsNone) {
   EXPECT_EQ(name_of_target(find_target("")), cpu_instruction_sets().back());
   EXPECT_EQ(find_target("abacus"), 0);
 }
+
+#if HWY_ARCH_X86
+/// Highway's own library, which the build does without.
+TEST(InstructionSet, WhatIsUsableIsWhatHighwaySays) {
+  void* const highway = dlopen("libhwy.so.1", RTLD_NOW | RTLD_LOCAL);
+  if (highway == nullptr) GTEST_SKIP() << "no libhwy.so.1 to ask";
+  void* const supported = dlsym(highway, "_ZN3hwy16SupportedTargetsEv");
+  ASSERT_NE(supported, nullptr);
+  EXPECT_EQ(usable_targets(), reinterpret_cast<std::int64_t (*)()>(supported)() & HWY_TARGETS);
+}
+#endif
 
 }  // namespace
 }  // namespace harpoon

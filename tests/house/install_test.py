@@ -74,6 +74,13 @@ class InstalledPackage(unittest.TestCase):
         for example in EXAMPLES:
             self.check_output(WORK / "examples" / example)
 
+    def test_the_drop_in_finds_its_engine(self):
+        command = PREFIX / "bin" / "harpoon"
+        if not command.exists():
+            self.skipTest("this build has no command")
+        run(command, "run", "--require", "--", command, "diamond", "--steps", "2", "--out",
+            WORK / "diamond")
+
     def test_version_is_checked(self):
         folder = WORK / "too_new"
         folder.mkdir()

@@ -6,6 +6,7 @@ writes a changed copy of the library SOURCE to the file TARGET (its folder must 
 uses it by LD_LIBRARY_PATH when the file is called libode.so.8. Variants:
 
     copy           nothing but another file name
+    renamed NAME   calls itself by another name (SONAME), one of eleven letters
     symbolic       calls all its own functions itself, as after linking with -Bsymbolic
     direct NAME    calls only the named functions itself; everybody else still sees them. What a
                    compiler does that inlines them, or a linker with -Bsymbolic-functions
@@ -14,9 +15,11 @@ uses it by LD_LIBRARY_PATH when the file is called libode.so.8. Variants:
     unlocked       has no assertions on locked spaces nor on its own state, as upstream's default
                    build: callbacks may change spaces. Assertions on arguments stay
 
-The file keeps its size: relocations, flags and a few jumps are changed in place. Only for x86-64. `symbolic` needs what Debian's library has, an entry DT_FLAGS.
+The file keeps its size: relocations, flags and a few jumps are changed in place. Only for x86-64;
+`symbolic` needs what Debian's library has, an entry DT_FLAGS.
 """
 
+import functools
 import pathlib
 import re
 import struct
@@ -30,6 +33,23 @@ STV_HIDDEN = 2
 # What ends a process on Debian and is not asked in upstream's default build.
 LOCKED = rb"Invalid operation for locked space in %s\(\)\0"
 REFUSALS = LOCKED + rb'|assertion "'
+
+
+@functools.lru_cache
+def instructions_of(path):
+    """Address, operation and operands of every instruction."""
+    text = subprocess.run(["objdump", "-d", "--no-show-raw-insn", path], check=True,
+                          capture_output=True, text=True).stdout
+    found = re.finditer(r"^ +([0-9a-f]+):\t(\S+) *(.*)$", text, re.MULTILINE)
+    return [(int(m[1], 16), m[2], m[3]) for m in found]
+
+
+def rename(data, old, new):
+    """Changes a name of a library in the string table of one that has or needs it."""
+    if len(new) != len(old) or data.count(b"\0" + old.encode() + b"\0") != 1:
+        raise SystemExit(f"{old} cannot be renamed to {new}")
+    at = data.index(b"\0" + old.encode() + b"\0") + 1
+    data[at:at + len(old)] = new.encode()
 
 
 class Library:
@@ -111,12 +131,20 @@ class Library:
         self.make_direct(name)
         self.data[self.entry(name) + 5] = STV_HIDDEN
 
+    def rename(self, name):
+        rename(self.data, "libode.so.8", name)
+
     def instructions(self):
-        """Address, operation and operands of every instruction."""
-        text = subprocess.run(["objdump", "-d", "--no-show-raw-insn", self.path], check=True,
-                              capture_output=True, text=True).stdout
-        found = re.finditer(r"^ +([0-9a-f]+):\t(\S+) *(.*)$", text, re.MULTILINE)
-        return [(int(m[1], 16), m[2], m[3]) for m in found]
+        return instructions_of(self.path)
+
+    def callers(self, name):
+        """The exported functions that call the named one by way of the dynamic linker."""
+        spans = sorted((self.address(symbol), self.number("<Q", at + 16), symbol)
+                       for symbol, at in self.symbols.items() if symbol)
+        calls = [address for address, operation, operands in self.instructions()
+                 if operation in ("call", "jmp") and f"<{name}@plt>" in operands]
+        return sorted({symbol for start, size, symbol in spans
+                       if any(start <= call < start + size for call in calls)})
 
     def inline(self, where, name):
         """Calls and jumps of one function to another one's PLT entry lead to the function."""
@@ -172,6 +200,7 @@ class Library:
         if left or not any(block[2] for block in reached):
             raise SystemExit(f"{self.path}: {len(left)} assertions on locked spaces are left")
 
+
 def make(source, variant, target, names=()):
     """Writes the variant; see the head of this file."""
     library = Library(str(source))
@@ -182,6 +211,8 @@ def make(source, variant, target, names=()):
             (library.make_direct if variant == "direct" else library.hide)(name)
     elif variant == "inlined":
         library.inline(*names)
+    elif variant == "renamed":
+        library.rename(*names)
     elif variant == "unlocked":
         library.without_assertions()
     elif variant != "copy":

@@ -9,6 +9,8 @@
 #include <string_view>
 
 #include "apps/exit_code.hpp"
+#include "apps/files.hpp"
+#include "apps/signals.hpp"
 
 namespace harpoon::app {
 namespace {
@@ -32,7 +34,7 @@ std::filesystem::path find_drop_in() {
   throw CommandError(ExitCode::environment,
                      fmt::format("There is no libharpoon_ode.so beside {}. Build or install the "
                                  "whole of Harpoon.",
-                                 self.string()));
+                                 shown(self)));
 }
 
 void run_with_drop_in(const std::vector<std::string>& command,
@@ -46,9 +48,10 @@ void run_with_drop_in(const std::vector<std::string>& command,
   std::vector<char*> arguments;
   for (const std::string& word : command) arguments.push_back(const_cast<char*>(word.c_str()));
   arguments.push_back(nullptr);
+  leave_signals_alone();
   ::execvp(arguments[0], arguments.data());
   throw CommandError(ExitCode::environment, fmt::format("{}: {}. Give a program that is there.",
-                                                        command[0], std::strerror(errno)));
+                                                        shown(command[0]), std::strerror(errno)));
 }
 
 }  // namespace harpoon::app

@@ -12,10 +12,10 @@ namespace harpoon::app {
 
 enum class ExitCode : int {
   ok = 0,
-  failure = 1,        ///< the command ran and found something wrong: a mismatch, a missed target
-  usage = 2,          ///< bad option, value or command
-  environment = 3,    ///< a file, device, package or memory that is not there
-  interrupted = 130,  ///< stopped by SIGINT or SIGTERM; no file was written
+  failure = 1,      ///< the command ran and found something wrong: a mismatch, a missed target
+  usage = 2,        ///< bad option, value or command
+  environment = 3,  ///< a file, device, package or memory that is not there, or fails
+  data = 4,         ///< a file whose content is malformed, or of another kind
 };
 
 class CommandError : public std::runtime_error {

@@ -49,15 +49,15 @@ TEST(Command, HelpIsEverywhereWithExamples) {
 TEST(Command, WrongUsageIsExitCode2AndNamesWhatIsWrong) {
   const std::vector<std::pair<std::vector<std::string>, std::string>> cases = {
       {{}, "subcommand is required"},
-      {{"fly"}, "'fly' is no command"},
-      {{"demo", "--fast"}, "'--fast' is no command or option of harpoon demo"},
-      {{"bench", "pairs", "--type", "soft"}, "'soft' is not one of real, fake, grazing, mixed"},
-      {{"bench", "pairs", "--count", "0"}, "--count: '0' is not a whole number from 1"},
-      {{"bench", "pairs", "--device", "abacus"}, "there is no device abacus"},
+      {{"fly"}, "\"fly\" is no command"},
+      {{"demo", "--fast"}, "\"--fast\" is no command or option of harpoon demo"},
+      {{"bench", "pairs", "--type", "soft"}, "\"soft\" is not one of real, fake, grazing, mixed"},
+      {{"bench", "pairs", "--count", "0"}, "--count: \"0\" is not a whole number from 1"},
+      {{"bench", "pairs", "--device", "abacus"}, "there is no device \"abacus\""},
       {{"bench", "pairs", "--figure", "6", "--count", "10"}, "excludes"},
       {{"diamond", "--hmax", "46"}, "--hmax"},
-      {{"diamond", "--dsph", "-1"}, "dsph is -1"},
-      {{"completion", "tcsh"}, "'tcsh' is not one of bash, zsh, fish"}};
+      {{"diamond", "--dsph", "-1"}, "--dsph: \"-1\" is not a number from 0"},
+      {{"completion", "tcsh"}, "\"tcsh\" is not one of bash, zsh, fish"}};
   for (const auto& [arguments, message] : cases) {
     const Finished f = run_piped(arguments);
     EXPECT_EQ(f.exit_code, 2) << message;

@@ -70,18 +70,24 @@ Fault parse(std::string_view text, std::uint32_t& out) {
   return parsed ? nullptr : "is not a whole number of 32 bits";
 }
 
+/// What a text is that begins as no CSV does: JSON, which may be one line.
+const char* json_kind(std::string_view beginning) {
+  const std::size_t first = beginning.find_first_not_of(" \t\r\n");
+  if (first == std::string_view::npos) return nullptr;
+  const std::string_view text = beginning.substr(first);
+  if (text.front() == '{' && trimmed(text.substr(0, text.find('\n'))).back() == '}') {
+    return "this is JSON, or JSON lines with a value on each line; put the bodies into one array "
+           "in a file named .json";
+  }
+  const bool is_json = text.front() == '{' || text.front() == '[';
+  return is_json ? "this is JSON; give the file a name that ends with .json" : nullptr;
+}
+
 /// What a header without any of our names is instead.
 std::string other_header(std::string_view line) {
   const std::string_view text = trimmed(line);
   if (text.starts_with("ITEM:")) return "this is a LAMMPS dump; write x,y,z,r as CSV";
   if (text.front() == '<') return "this is XML or HTML; write CSV";
-  if (text.front() == '{' && has(text, ":") && text.back() == '}') {
-    return "this is JSON, or JSON lines with a value on each line; put the bodies into one array "
-           "in a file named .json";
-  }
-  if (text.front() == '{' || text.front() == '[') {
-    return "this is JSON; give the file a name that ends with .json";
-  }
   if (has(text, ",")) return "";
   for (const auto& [separator, name] : {std::pair{';', "semicolons"}, std::pair{'\t', "tabs"},
                                         std::pair{'|', "bars"}, std::pair{' ', "spaces"}}) {
@@ -101,6 +107,7 @@ class CsvReader {
     constexpr std::string_view kByteOrderMark = "\xEF\xBB\xBF";
     const std::string_view beginning = source_.look_ahead();
     if (const auto wrong = wrong_beginning(beginning)) return *wrong;
+    if (const char* const kind = json_kind(beginning)) return TextError{1, 1, kind};
     if (has(beginning, "\r") && !has(beginning, "\n")) {
       return TextError{1, beginning.find('\r') + 1,
                        "lines end with CR alone here; end them with LF or CR LF"};

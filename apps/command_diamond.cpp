@@ -32,9 +32,20 @@ struct DiamondOptions {
   std::string plot;
 };
 
-void write_positions(Output& out, unsigned step, const bench::DiamondWorld& world) {
+/// Where the state goes: to a file, which cannot always be read again, and to be compared.
+struct Positions {
+  Output& out;
+  std::string* copy;  ///< may be null
+
+  void write(const std::string& text) {
+    out.write(text);
+    if (copy != nullptr) *copy += text;
+  }
+};
+
+void write_positions(Positions& positions, unsigned step, const bench::DiamondWorld& world) {
   for (std::size_t i = 0; i < world.size(); ++i) {
-    out.write(bench::position_line(step, i, world.position(i)));
+    positions.write(bench::position_line(step, i, world.position(i)));
   }
 }
 
@@ -51,9 +62,9 @@ struct Totals {
 };
 
 // Writes the state before each step that is wanted, and the contacts that ODE finds there.
-Totals run_world(const DiamondOptions& options, bench::DiamondWorld& world, Output& positions,
+Totals run_world(const DiamondOptions& options, bench::DiamondWorld& world, Positions positions,
                  Output& contacts, Progress& progress) {
-  positions.print("{}\n", bench::kPositionsHeader);
+  positions.write(fmt::format("{}\n", bench::kPositionsHeader));
   contacts.print("step,g1,g2,x,y,z,nx,ny,nz,depth,type\n");
   Totals totals;
   for (unsigned step = 0; step < options.steps; ++step) {
@@ -135,20 +146,20 @@ void run(const Context& context, const DiamondOptions& options) {
   const std::string earlier = read_earlier(options);
   require_writable_folder(out, "--out", {kPositionsFile, kContactsFile});
   Totals totals;
+  std::string text;
   {
     OutputFile positions(out / kPositionsFile, "--out");
     OutputFile contacts(out / kContactsFile, "--out");
     Progress progress(context.terminal);
-    totals = run_world(options, *world, positions.out(), contacts.out(), progress);
+    const Positions both{positions.out(), options.against.empty() ? nullptr : &text};
+    totals = run_world(options, *world, both, contacts.out(), progress);
     positions.commit();
     contacts.commit();
   }
   print("{} spheres, {} steps, {} candidate pairs, {} contacts\n{}\n{}\n", world->size(),
         options.steps, totals.candidates, totals.contacts, shown(out / kPositionsFile),
         shown(out / kContactsFile));
-  if (!options.against.empty()) {
-    compare(context, options, earlier, read_text_file(out / kPositionsFile));
-  }
+  if (!options.against.empty()) compare(context, options, earlier, text);
 }
 
 }  // namespace

@@ -152,7 +152,8 @@ std::string bash_completion(const CommandInfo& root) {
   }
   return fmt::format(R"(# Completion of harpoon for bash; written by `harpoon completion bash`.
 _harpoon() {{
-  local word=${{COMP_WORDS[COMP_CWORD]}} before=${{COMP_WORDS[COMP_CWORD-1]}} at=harpoon words='' more='' i
+  local word=${{COMP_WORDS[COMP_CWORD]}} before=${{COMP_WORDS[COMP_CWORD-1]}}
+  local at=harpoon words='' more='' i
   for ((i = 1; i < COMP_CWORD; i++)); do
     case "$at ${{COMP_WORDS[i]}}" in
       {}) at="$at ${{COMP_WORDS[i]}}" ;;

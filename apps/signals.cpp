@@ -26,6 +26,7 @@ std::atomic<bool> progress_shown = false;
 constexpr std::array kEnding = {SIGINT, SIGTERM, SIGHUP};
 constexpr std::array kIgnored = {SIGPIPE, SIGXFSZ};
 std::array<struct sigaction, kEnding.size() + kIgnored.size()> actions_before;
+sigset_t mask_before;
 
 void take_lock() {
   while (lock.test_and_set(std::memory_order_acquire)) ::sched_yield();
@@ -75,13 +76,14 @@ void handle_signals() {
     sigaction(signal, &action, &actions_before[k++]);
   }
   const sigset_t set = ending_signals();
-  pthread_sigmask(SIG_UNBLOCK, &set, nullptr);
+  pthread_sigmask(SIG_UNBLOCK, &set, &mask_before);
 }
 
 void leave_signals_alone() {
   std::size_t k = 0;
   for (const int signal : kEnding) sigaction(signal, &actions_before[k++], nullptr);
   for (const int signal : kIgnored) sigaction(signal, &actions_before[k++], nullptr);
+  pthread_sigmask(SIG_SETMASK, &mask_before, nullptr);
 }
 
 SignalsHeld::SignalsHeld() {

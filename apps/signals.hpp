@@ -13,7 +13,8 @@ namespace harpoon::app {
 /// of the write that meets them.
 void handle_signals();
 
-/// Gives every signal the action that it had: for a process that becomes or serves another program.
+/// Gives every signal the action that it had before: for a process that becomes or serves another
+/// program. Only after handle_signals.
 void leave_signals_alone();
 
 /// While one lives, no signal ends the process; what came is delivered afterwards. For moments in

@@ -65,8 +65,9 @@ bool fits(const Setting& setting, double value) {
 }
 
 Error out_of_range(const Setting& setting, std::string_view value) {
-  return bad(fmt::format("the link setting {} is a {}number from {} to {}, not \"{}\"", setting.key,
-                         setting.is_whole ? "whole " : "", setting.low, setting.high, value));
+  return bad(fmt::format("the link setting {} is a {}number from {} to {}, not \"{}\"; known: {}",
+                         setting.key, setting.is_whole ? "whole " : "", setting.low, setting.high,
+                         value, known_settings()));
 }
 
 /// Replaces one number: "key=value".

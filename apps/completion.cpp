@@ -103,11 +103,11 @@ std::string zsh_positional(const CommandInfo& command) {
   return type == "COMMAND" ? "; _command_names -e; _files" : "";
 }
 
-/// Words of a positional: -F lets fish add files where -f holds them back.
+/// Words of a positional. -f keeps fish from offering files, -F makes it; it refuses both at once.
 std::string fish_positional(const OptionInfo& option) {
   if (option.type == "FILE") return " -F";
-  if (option.type == "COMMAND") return " -a '(__fish_complete_command)'";
-  return fmt::format(" -a '{}'", fmt::join(option.choices, " "));
+  if (option.type == "COMMAND") return " -F -a '(__fish_complete_command)'";
+  return fmt::format(" -f -a '{}'", fmt::join(option.choices, " "));
 }
 
 std::string zsh_values(const OptionInfo& option) {
@@ -123,7 +123,7 @@ std::string zsh_values(const OptionInfo& option) {
 
 std::string fish_values(const OptionInfo& option) {
   if (option.type.empty()) {
-    return "";
+    return " -f";
   }
   if (option.type == "FILE") {
     return " -r -F";
@@ -226,9 +226,9 @@ std::string fish_completion(const CommandInfo& root) {
       paths += quoted(command->path);
     }
     const std::string here =
-        fmt::format("complete -c harpoon -f -n '__harpoon_at \"{}\"'", command->path);
+        fmt::format("complete -c harpoon -n '__harpoon_at \"{}\"'", command->path);
     for (const CommandInfo& sub : command->subcommands) {
-      lines += fmt::format("{} -a {} -d {}\n", here, sub.name, quoted(sub.help));
+      lines += fmt::format("{} -f -a {} -d {}\n", here, sub.name, quoted(sub.help));
     }
     for (const OptionInfo& option : command->options) {
       std::string names;

@@ -169,6 +169,37 @@ TEST(Completion, BashOffersFilesForEveryFileAndCommandsForACommand) {
   EXPECT_EQ(offered(folder, "harpoon run " + begun), (folder / "data.json").string() + "\n");
 }
 
+TEST(Completion, FishOffersFilesForEveryFileAndCommandsForACommand) {
+  if (!has_program("fish")) GTEST_SKIP() << "fish is not installed";
+  const Declared declared;
+  const ScratchFolder folder;
+  write_file(folder / "harpoon.fish", fish_completion(declared.info));
+  write_file(folder / "data.json", "");
+  std::string lines = "harpoon run mkfif\n";
+  std::size_t files = 0;
+  for (const CommandInfo* command : flattened(declared.info)) {
+    for (const OptionInfo& option : command->options) {
+      if (option.type != "FILE") continue;
+      const std::string before = option.is_positional ? "" : " " + option.names.back();
+      lines += command->path + before + " da\n";
+      ++files;
+    }
+  }
+  write_file(folder / "lines", lines);
+  const std::string script = "cd " + folder.string() +
+                             "; source harpoon.fish; while read line; complete -C $line; end"
+                             " < lines > offered 2>&1";
+  EXPECT_EQ(std::system(("fish --no-config -c '" + script + "'").c_str()), 0);
+  const std::string offered_lines = read_file(folder / "offered");
+  EXPECT_EQ(offered_lines.substr(0, 6), "mkfifo") << offered_lines;
+  std::size_t found = 0;
+  for (std::size_t at = 0; (at = offered_lines.find("data.json\n", at)) != std::string::npos;
+       ++at) {
+    ++found;
+  }
+  EXPECT_EQ(found, files) << offered_lines;
+}
+
 TEST(Completion, EveryShellsScriptNamesEveryOptionAndParses) {
   const Declared declared;
   const ScratchFolder folder;

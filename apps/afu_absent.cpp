@@ -7,14 +7,13 @@ Result<std::unique_ptr<afu::AfuDevice>> open_afu(const AfuSettings&) {
 }
 
 CatalogEntry afu_entry(const std::string&) {
-  DeviceInfo info;
-  info.name = "afu";
-  info.modelled = true;
-  info.description = afu::afu_absent_reason();
+  const auto look = [] {
+    return DeviceInfo{"afu", false, std::string(afu::afu_absent_reason()), true};
+  };
   const auto open = [](unsigned) -> Result<std::unique_ptr<Device>> {
     return Error{Errc::device_unavailable, std::string(afu::afu_absent_reason())};
   };
-  return {std::move(info), open, false};
+  return {"afu", look, open, false};
 }
 
 }  // namespace harpoon::app

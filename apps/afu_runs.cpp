@@ -106,7 +106,7 @@ AfuWorkload make_afu_workload(std::size_t spheres, std::size_t pairs, unsigned h
   return workload;
 }
 
-std::vector<AfuRun> run_afu(const AfuRunsPlan& plan, const bench::Interrupted& interrupted) {
+std::vector<AfuRun> run_afu(const AfuRunsPlan& plan) {
   const AfuWorkload none = workload_of(plan, 0, 0);
   const AfuWorkload direct = workload_of(plan, plan.pairs, plan.direct_hit_percent);
   const AfuWorkload indexed = workload_of(plan, plan.pairs, plan.indexed_hit_percent);
@@ -134,9 +134,6 @@ std::vector<AfuRun> run_afu(const AfuRunsPlan& plan, const bench::Interrupted& i
                         {"direct, as published", as_published, published, false}};
   std::vector<AfuRun> runs;
   for (const Step& step : steps) {
-    if (bench::must_stop(interrupted)) {
-      break;
-    }
     const std::unique_ptr<afu::AfuDevice> device = value_or_throw(open_afu(step.settings));
     runs.push_back(step.is_indexed ? run_indexed(step.name, *device, step.workload)
                                    : run_records(step.name, *device, step.workload));

@@ -4,11 +4,12 @@
 // how fast it was simulated. Every result is compared with the scalar collider.
 
 #include <cstdint>
+#include <functional>
 #include <string>
+#include <string_view>
 #include <vector>
 
 #include "apps/afu_entry.hpp"
-#include "bench/interrupt.hpp"
 
 namespace harpoon::app {
 
@@ -18,7 +19,8 @@ struct AfuRunsPlan {
   unsigned direct_hit_percent = 50;   ///< pairs that overlap, direct formats
   unsigned indexed_hit_percent = 10;  ///< the same, indexed format
   std::uint64_t seed = 1;
-  std::string waveform;  ///< file to write a VCD of the direct run into; empty: none
+  /// Takes a VCD of the direct run piece by piece; must not throw. Empty: none.
+  std::function<void(std::string_view)> waveform;
 };
 
 /// The published AFU, as far as two registers can bring it back: few lines in flight, and a barrier
@@ -34,8 +36,8 @@ struct AfuRun {
 };
 
 /// An empty batch, one of each format, and the direct format with the published behaviour.
-/// Ends early when interrupted. Throws CommandError when there is no AFU or it fails.
-std::vector<AfuRun> run_afu(const AfuRunsPlan& plan, const bench::Interrupted& interrupted);
+/// Throws CommandError when there is no AFU or it fails.
+std::vector<AfuRun> run_afu(const AfuRunsPlan& plan);
 
 /// Spheres of two, far from all others; a pair of the batch names such two or two of different
 /// ones.

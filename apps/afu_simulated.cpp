@@ -26,13 +26,13 @@ CatalogEntry afu_entry(const std::string& profile) {
     }
     return std::unique_ptr<Device>(std::move(*device));
   };
-  DeviceInfo info;
-  info.name = "afu";
-  info.modelled = true;
-  const Result<std::unique_ptr<Device>> device = open(1);
-  info.available = device.ok();
-  info.description = device ? (*device)->capabilities().description : device.error().message;
-  return {std::move(info), open, false};
+  const auto look = [open] {
+    const Result<std::unique_ptr<Device>> device = open(1);
+    return DeviceInfo{"afu", device.ok(),
+                      device ? (*device)->capabilities().description : device.error().message,
+                      true};
+  };
+  return {"afu", look, open, false};
 }
 
 }  // namespace harpoon::app

@@ -3,11 +3,14 @@
 #include <fmt/format.h>
 
 #include <CLI/CLI.hpp>
-#include <cstdio>
 #include <new>
+#include <stdexcept>
 
 #include "apps/exit_code.hpp"
-#include "apps/interrupt.hpp"
+#include "apps/output.hpp"
+#include "apps/parse_error.hpp"
+#include "apps/printable.hpp"
+#include "apps/signals.hpp"
 #include "bench/machine.hpp"
 
 namespace harpoon::app {
@@ -18,9 +21,9 @@ constexpr const char* kExitCodes =
     "  0    success\n"
     "  1    the command ran and found a failure (a mismatch, a missed target)\n"
     "  2    usage: unknown command or option, bad value\n"
-    "  3    environment: a file, device, package or memory that is not there\n"
-    "  5    run --require: no call of ODE was served\n"
-    "  130  interrupted by SIGINT or SIGTERM; no file was written\n\n"
+    "  3    environment: a file, device, package or memory that is not there, or fails\n"
+    "  4    data: a file that is malformed, or of another kind\n"
+    "  129, 130, 143  ended by SIGHUP, SIGINT or SIGTERM; no file is half-written\n\n"
     "Environment:\n"
     "  NO_COLOR  when set and not empty, no colours are used\n\n"
     "Examples:\n"
@@ -36,53 +39,50 @@ std::string version_text() {
                      machine.ode, machine.compiler);
 }
 
+/// As typed, fit for a document: results are read long after.
 std::string joined(int argc, const char* const* argv) {
   std::string line = "harpoon";
   for (int i = 1; i < argc; ++i) {
-    line += std::string(" ") + argv[i];
+    line += " " + printable(argv[i]);
   }
   return line;
 }
 
-void print_error(const std::string& message) {
-  std::fflush(stdout);
-  fmt::print(stderr, "harpoon: error: {}\n", message);
-}
-
-// CLI11 tells help and version by a zero exit code of their "error".
-int report_parse(const CLI::App& root, const CLI::ParseError& error) {
-  if (error.get_exit_code() == 0) {
-    return root.exit(error);
-  }
-  const CLI::App* used = &root;
-  while (!used->get_subcommands().empty()) {
-    used = used->get_subcommands().front();
-  }
-  std::string name = "harpoon";
-  for (const CLI::App* app = used; app->get_parent() != nullptr; app = app->get_parent()) {
-    name.insert(sizeof "harpoon" - 1, " " + app->get_name());
-  }
-  const std::vector<std::string> unknown = used->remaining();
-  const std::string what =
-      unknown.empty() ? error.what()
-                      : fmt::format("'{}' is no command or option of {}", unknown.front(), name);
-  print_error(fmt::format("{}. See `{} --help`.", what, name));
-  return static_cast<int>(ExitCode::usage);
-}
-
-int run_guarded(const std::function<void()>& run) {
+/// One line on standard error, behind what was printed. What cannot be printed is told too.
+void print_error(std::string_view message) {
   try {
-    run();
-    return static_cast<int>(ExitCode::ok);
+    standard_output().flush();
+  } catch (const CommandError& lost) {
+    note("harpoon: error: {}\n", printable(lost.what()));
+  }
+  note("harpoon: error: {}\n", printable(message));
+}
+
+/// Does a part of the work and says what went wrong. The exit code.
+ExitCode attempt(const Context& context, const std::function<void()>& part) {
+  try {
+    part();
+    return ExitCode::ok;
   } catch (const CommandError& error) {
     print_error(error.what());
-    return static_cast<int>(error.code());
+    return error.code();
   } catch (const std::bad_alloc&) {
-    print_error("Out of memory. Use a smaller --count.");
-    return static_cast<int>(ExitCode::environment);
+    print_error("Out of memory. " + context.memory_remedy);
+  } catch (const std::length_error&) {
+    print_error("Out of memory. " + context.memory_remedy);
   } catch (const std::exception& error) {
     print_error(error.what());
-    return static_cast<int>(ExitCode::environment);
+  }
+  return ExitCode::environment;
+}
+
+/// Parses, and leaves in the context what is to be run.
+void parse(CLI::App& root, Context& context, int argc, const char* const* argv) {
+  try {
+    root.parse(argc, argv);
+  } catch (const CLI::ParseError& error) {
+    const std::string answer = answer_to(root, error);
+    context.run = [answer] { standard_output().write(answer); };
   }
 }
 
@@ -91,7 +91,7 @@ int run_guarded(const std::function<void()>& run) {
 void add_all_commands(CLI::App& root, Context& context) {
   root.name("harpoon");
   root.description("Collision detection on whatever machine is at hand.");
-  root.set_version_flag("--version", version_text, "Print version, commit and ODE, and exit");
+  root.set_version_flag("-V,--version", version_text, "Print version, commit and ODE, and exit");
   root.set_help_flag("-h,--help", "Print this help and exit");
   root.require_subcommand(1);
   root.footer(kExitCodes);
@@ -106,22 +106,22 @@ void add_all_commands(CLI::App& root, Context& context) {
   add_selftest(root, context);
   add_completion(root, context);
   add_manual(root, context);
+  add_help(root, context);  // last: it knows the others
 }
 
 int run_command_line(int argc, const char* const* argv) {
-  install_interrupt_handlers();
+  open_standard_streams();
+  handle_signals();
   Context context{detect_terminal(), joined(argc, argv), {}};
   CLI::App root;
   add_all_commands(root, context);
-  try {
-    root.parse(argc, argv);
-  } catch (const CLI::ParseError& error) {
-    return report_parse(root, error);
-  } catch (const CommandError& error) {
-    print_error(error.what());
-    return static_cast<int>(error.code());
-  }
-  return run_guarded(context.run);
+  ExitCode code = attempt(context, [&] {
+    parse(root, context, argc, argv);
+    context.run();
+    standard_output().flush();
+  });
+  if (code == ExitCode::ok && remarks_were_lost()) code = ExitCode::environment;
+  return static_cast<int>(code);
 }
 
 }  // namespace harpoon::app

@@ -18,6 +18,8 @@ struct Context {
   Terminal terminal;
   std::string command_line;   ///< as typed, for the results
   std::function<void()> run;  ///< set by the subcommand that was given; throws CommandError
+  /// What helps when there is too little memory; set by subcommands that know better.
+  std::string memory_remedy = "End other programs, or use a larger machine.";
 };
 
 void add_demo(CLI::App& root, Context& context);
@@ -34,6 +36,7 @@ void add_devices(CLI::App& root, Context& context);
 void add_selftest(CLI::App& root, Context& context);
 void add_completion(CLI::App& root, Context& context);
 void add_manual(CLI::App& root, Context& context);
+void add_help(CLI::App& root, Context& context);
 
 /// Declares the whole command. Every option of every subcommand is in `root` afterwards.
 void add_all_commands(CLI::App& root, Context& context);

@@ -3,13 +3,14 @@
 #include <fmt/format.h>
 
 #include <CLI/CLI.hpp>
+#include <optional>
 
 #include "apps/afu_runs.hpp"
 #include "apps/command.hpp"
 #include "apps/exit_code.hpp"
 #include "apps/files.hpp"
-#include "apps/interrupt.hpp"
 #include "apps/options.hpp"
+#include "apps/output.hpp"
 #include "apps/progress.hpp"
 #include "apps/table.hpp"
 #include "bench/json.hpp"
@@ -25,6 +26,7 @@ constexpr const char* kStepNames[] = {"pointers", "data, SPL", "start", "AFU ID"
 struct AfuCommandOptions {
   AfuRunsPlan plan;
   std::string json;
+  std::string waveform;
 };
 
 std::string id_text(const afu::AfuIdentity& id) {
@@ -211,66 +213,62 @@ void require_right(const std::vector<AfuRun>& runs) {
   }
 }
 
-void show(const Context& context, const AfuCommandOptions& options) {
+void deliver(const Context& context, const AfuCommandOptions& options,
+             const std::vector<AfuRun>& runs, OutputFile* waveform) {
   const bool json_on_stdout = options.json == "-";
-  if (!options.json.empty() && !json_on_stdout) {
-    require_writable_file(options.json, "--json");
+  if (json_on_stdout) {
+    print("{}\n", to_json(runs).dump(2));
+  } else {
+    print("{}", describe(context.terminal, runs));
   }
-  if (!options.plan.waveform.empty()) {
-    require_writable_file(options.plan.waveform, "--waveform");
+  if (!options.json.empty() && !json_on_stdout) {
+    write_file(options.json, to_json(runs).dump(2) + "\n");
+    print("{}\n", shown(options.json));
+  }
+  if (waveform == nullptr) return;
+  waveform->commit();
+  const std::string name = shown(options.waveform) + "\n";
+  json_on_stdout ? remark(name) : print("{}", name);
+}
+
+void show(const Context& context, const AfuCommandOptions& options) {
+  if (!options.json.empty() && options.json != "-") require_writable_file(options.json, "--json");
+  std::optional<OutputFile> waveform;
+  std::optional<CommandError> lost;
+  AfuRunsPlan plan = options.plan;
+  if (!options.waveform.empty()) {
+    waveform.emplace(options.waveform, "--waveform");
+    plan.waveform = [&](std::string_view text) {
+      try {
+        if (!lost) waveform->out().write(text);
+      } catch (const CommandError& error) {
+        lost = error;
+      }
+    };
   }
   const std::vector<AfuRun> runs = [&] {
     Progress progress(context.terminal);
     progress.show(0, "running the AFU");
-    return run_afu(options.plan, is_interrupted);
+    return run_afu(plan);
   }();
-  throw_if_interrupted();
-  if (json_on_stdout) {
-    fmt::print("{}\n", to_json(runs).dump(2));
-  } else {
-    fmt::print("{}", describe(context.terminal, runs));
-  }
-  if (!options.json.empty() && !json_on_stdout) {
-    write_file(options.json, to_json(runs).dump(2) + "\n");
-    fmt::print("{}\n", options.json);
-  }
-  if (!options.plan.waveform.empty()) {
-    fmt::print(json_on_stdout ? stderr : stdout, "{}\n", options.plan.waveform);
-  }
+  if (lost) throw CommandError(*lost);
+  deliver(context, options, runs, waveform ? &*waveform : nullptr);
   require_right(runs);
 }
 
 void add_options(CLI::App& command, AfuCommandOptions& options) {
-  command
-      .add_option("--profile", options.plan.profile,
-                  "Link: harp, pcie3x16 or f2, and any of its numbers after commas")
-      ->type_name("PROFILE")
-      ->capture_default_str();
-  command.add_option("--pairs", options.plan.pairs, "Pairs in each run")
-      ->check(whole_number(0, 10000000))
-      ->type_name("N")
-      ->capture_default_str();
-  command
-      .add_option("--hits", options.plan.direct_hit_percent,
-                  "Percent of the pairs that overlap, direct formats")
-      ->check(whole_number(0, 100))
-      ->type_name("N")
-      ->capture_default_str();
-  command
-      .add_option("--indexed-hits", options.plan.indexed_hit_percent,
-                  "Percent of the pairs that overlap, indexed format")
-      ->check(whole_number(0, 100))
-      ->type_name("N")
-      ->capture_default_str();
-  command.add_option("--seed", options.plan.seed, "Seed of the pairs")
-      ->type_name("N")
-      ->capture_default_str();
-  command
-      .add_option("--waveform", options.plan.waveform,
-                  "Write the AFU's ports in the direct run as a VCD; use few --pairs")
-      ->type_name("FILE");
-  command.add_option("--json", options.json, "Write the same as JSON; - for standard output alone")
-      ->type_name("FILE");
+  add_name(command, "--profile", options.plan.profile, "PROFILE",
+           "Link: harp, pcie3x16 or f2, and any of its numbers after commas");
+  add_whole(command, "--pairs", options.plan.pairs, 0, 10000000, "N", "Pairs in each run");
+  add_whole(command, "--hits", options.plan.direct_hit_percent, 0, 100, "N",
+            "Percent of the pairs that overlap, direct formats");
+  add_whole(command, "--indexed-hits", options.plan.indexed_hit_percent, 0, 100, "N",
+            "Percent of the pairs that overlap, indexed format");
+  add_seed(command, options.plan.seed, "Seed of the pairs");
+  add_name(command, "--waveform", options.waveform, "FILE",
+           "Write the AFU's ports in the direct run as a VCD; use few --pairs");
+  add_name(command, "--json", options.json, "FILE",
+           "Write the same as JSON; - for standard output alone");
 }
 
 }  // namespace
@@ -290,8 +288,10 @@ void add_afu(CLI::App& root, Context& context) {
       "  harpoon afu --profile pcie3x16 --pairs 100000\n"
       "  harpoon afu --profile harp,latency_ns=500,in_flight=32 --json -\n"
       "  harpoon afu --pairs 20 --waveform afu.vcd");
-  command->callback(
-      [&context, options] { context.run = [&context, options] { show(context, *options); }; });
+  command->callback([&context, options] {
+    context.memory_remedy = "Use fewer --pairs.";
+    context.run = [&context, options] { show(context, *options); };
+  });
 }
 
 }  // namespace harpoon::app

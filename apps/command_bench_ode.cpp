@@ -3,13 +3,14 @@
 
 #include <fmt/format.h>
 #include <sched.h>
+#include <sys/prctl.h>
 #include <sys/socket.h>
 #include <unistd.h>
 
 #include <CLI/CLI.hpp>
 #include <algorithm>
 #include <cerrno>
-#include <cstdio>
+#include <csignal>
 #include <cstdlib>
 #include <cstring>
 #include <filesystem>
@@ -19,9 +20,10 @@
 #include "apps/drop_in.hpp"
 #include "apps/exit_code.hpp"
 #include "apps/files.hpp"
-#include "apps/interrupt.hpp"
 #include "apps/options.hpp"
+#include "apps/output.hpp"
 #include "apps/progress.hpp"
+#include "apps/signals.hpp"
 #include "apps/table.hpp"
 #include "bench/ode/drop_in_bench.hpp"
 #include "bench/ode/interposed.hpp"
@@ -108,6 +110,9 @@ int part_from_stock() {
         fmt::format("There is no second process: {}. End some others.", std::strerror(errno)));
   }
   if (child == 0) {
+    // It has nothing to say and nothing to leave behind; it goes when the other one goes.
+    leave_signals_alone();
+    ::prctl(PR_SET_PDEATHSIG, SIGKILL);
     ::close(ends[0]);
     bench::serve_twins(ends[1]);
     ::_exit(0);
@@ -121,23 +126,21 @@ int part_from_stock() {
 /// Runs `work` with a progress to report to.
 template <class Work>
 auto with_progress(const Context& context, const Work& work) {
-  auto outcome = [&] {
-    Progress progress(context.terminal);
-    return value_or_throw(work([&](double done) { progress.show(done, "measuring"); }));
-  }();
-  throw_if_interrupted();
-  return outcome;
+  Progress progress(context.terminal);
+  return value_or_throw(work([&](double done) { progress.show(done, "measuring"); }));
 }
 
 /// The table goes to standard output unless the JSON does.
 void deliver(const std::string& file, const std::string& table, const std::string& json) {
-  fmt::print(file == "-" ? stderr : stdout, "{}", table);
   if (file == "-") {
-    fmt::print("{}", json);
-  } else if (!file.empty()) {
-    write_file(file, json);
-    fmt::print("{}\n", file);
+    remark(table);
+    print("{}", json);
+    return;
   }
+  print("{}", table);
+  if (file.empty()) return;
+  write_file(file, json);
+  print("{}\n", shown(file));
 }
 
 void measure(const Context& context, const OdeOptions& options) {
@@ -152,7 +155,7 @@ void measure(const Context& context, const OdeOptions& options) {
   }
   const int stock = part_from_stock();
   const auto outcome = with_progress(context, [&](const std::function<void(double)>& share) {
-    return bench::run_drop_in(plan, stock, share, is_interrupted);
+    return bench::run_drop_in(plan, stock, share, {});
   });
   deliver(options.json, describe(context.terminal, outcome),
           bench::drop_in_json(plan, outcome, bench::describe_machine(), context.command_line));
@@ -218,7 +221,7 @@ void measure_programs(const Context& context, const OdeOptions& options) {
   }
   const int stock = part_from_stock();
   const auto rows = with_progress(context, [&](const std::function<void(double)>& share) {
-    return bench::run_programs(plan, stock, share, is_interrupted);
+    return bench::run_programs(plan, stock, share, {});
   });
   deliver(options.json, describe(context.terminal, rows),
           bench::programs_json(plan, rows, bench::describe_machine(), context.command_line));
@@ -245,14 +248,12 @@ void add_bench_ode(CLI::App& bench, Context& context) {
   CLI::App* ode = bench.add_subcommand("ode", "Stock ODE and the drop-in on the same worlds");
   auto options = std::make_shared<OdeOptions>();
   CLI::Option* const kind =
-      add_choice(*ode, "--kind", options->kind, {"packed", "gas", "mixed", "asleep"}, "World");
+      add_choice(*ode, "--kind", options->kind,
+                 {"packed", "gas", "mixed", "asleep", "chain", "fallen", "cars"}, "World");
   kind->capture_default_str();
   CLI::Option* const geoms =
-      ode->add_option("--geoms", options->geoms,
-                      "Geoms; of a program its bodies or obstacles, by default its own number")
-          ->check(whole_number(2, 10000000))
-          ->type_name("N")
-          ->capture_default_str();
+      add_whole(*ode, "--geoms", options->geoms, 2, 10000000, "N",
+                "Geoms; of a program its bodies or obstacles, by default its own number");
   CLI::Option* const space =
       add_choice(*ode, "--space", options->space, {"simple", "hash", "sap", "quadtree", "all"},
                  "Kind of space");
@@ -262,16 +263,11 @@ void add_bench_ode(CLI::App& bench, Context& context) {
              "Whole programs instead of collision alone")
       ->excludes(kind)
       ->excludes(space);
-  ode->add_option("--seconds", options->seconds,
-                  "Time to measure each space or program, at least five steps")
-      ->check(CLI::Range(0.0, 3600.0))
-      ->type_name("S")
-      ->capture_default_str();
-  ode->add_option("--seed", options->seed, "Seed of the world")
-      ->type_name("N")
-      ->capture_default_str();
-  ode->add_option("--json", options->json, "Write the results as JSON; - for standard output")
-      ->type_name("FILE");
+  add_real(*ode, "--seconds", options->seconds, 0, 3600, "S",
+           "Time to measure each space or program, at least five steps");
+  add_seed(*ode, options->seed, "Seed of the world");
+  add_name(*ode, "--json", options->json, "FILE",
+           "Write the results as JSON; - for standard output");
   ode->footer(
       "Times are medians of a step, stock and drop-in in turn on twin worlds, in two processes on\n"
       "one core, without and with the library preloaded: dSpaceCollide with dCollide in the\n"
@@ -287,6 +283,7 @@ void add_bench_ode(CLI::App& bench, Context& context) {
       "  harpoon bench ode --kind gas --geoms 100000 --space hash --json ode.json\n"
       "  harpoon bench ode --program all --seconds 5");
   ode->callback([&context, options, geoms] {
+    context.memory_remedy = "Use fewer --geoms.";
     options->geoms_given = geoms->count() > 0;
     context.run = [&context, options] { run(context, *options); };
   });

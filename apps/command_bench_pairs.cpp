@@ -4,15 +4,14 @@
 
 #include <CLI/CLI.hpp>
 #include <algorithm>
-#include <cstdio>
 
 #include "apps/command.hpp"
 #include "apps/device_catalog.hpp"
 #include "apps/exit_code.hpp"
 #include "apps/figures.hpp"
 #include "apps/files.hpp"
-#include "apps/interrupt.hpp"
 #include "apps/options.hpp"
+#include "apps/output.hpp"
 #include "apps/progress.hpp"
 #include "apps/result_table.hpp"
 #include "bench/machine.hpp"
@@ -125,9 +124,8 @@ void measure(const Context& context, const PairsOptions& options) {
     Progress progress(context.terminal);
     progress.show(0, "recording pairs");
     const auto share = [&](double done) { progress.show(done, "measuring"); };
-    return value_or_throw(bench::run_pairs(plan, share, is_interrupted));
+    return value_or_throw(bench::run_pairs(plan, share));
   }();
-  throw_if_interrupted();
   outcome.notes.insert(outcome.notes.end(), left_out.begin(), left_out.end());
 
   bench::ResultSet results{bench::describe_machine(),
@@ -139,16 +137,18 @@ void measure(const Context& context, const PairsOptions& options) {
                            bench::to_copy_bandwidths(outcome.copy_series),
                            outcome.notes};
   const bool json_on_stdout = options.json == "-";
-  fmt::print(json_on_stdout ? stderr : stdout, "{}", describe_results(context.terminal, results));
+  const std::string table = describe_results(context.terminal, results);
+  json_on_stdout ? remark(table) : print("{}", table);
   if (json_on_stdout) {
-    fmt::print("{}", bench::to_json(results));
+    print("{}", bench::to_json(results));
   } else if (!options.json.empty()) {
     write_file(options.json, bench::to_json(results));
-    fmt::print("{}\n", options.json);
+    print("{}\n", shown(options.json));
   }
   if (!options.csv.empty()) {
     append_csv(options.csv, bench::csv_header(), bench::to_csv(results));
-    fmt::print(json_on_stdout ? stderr : stdout, "{}\n", options.csv);
+    const std::string name = shown(options.csv) + "\n";
+    json_on_stdout ? remark(name) : print("{}", name);
   }
 }
 
@@ -161,9 +161,8 @@ void check(const Context& context, const PairsOptions& options) {
   const auto targets = [&] {
     Progress progress(context.terminal);
     const auto share = [&](double done) { progress.show(done, "measuring targets"); };
-    return value_or_throw(bench::check_targets(plan, share, is_interrupted));
+    return value_or_throw(bench::check_targets(plan, share));
   }();
-  throw_if_interrupted();
   std::vector<std::vector<Cell>> rows;
   std::size_t missed = 0;
   for (const bench::Target& target : targets) {
@@ -173,11 +172,10 @@ void check(const Context& context, const PairsOptions& options) {
                     target.passed() ? Cell("pass", Colour::green) : Cell("MISS", Colour::red),
                     target.command});
   }
-  fmt::print(
-      "{}",
-      format_table(context.terminal,
-                   {{"target"}, {"measured", true}, {"required", true}, {"verdict"}, {"by itself"}},
-                   rows));
+  print("{}", format_table(
+                  context.terminal,
+                  {{"target"}, {"measured", true}, {"required", true}, {"verdict"}, {"by itself"}},
+                  rows));
   if (missed > 0) {
     throw CommandError(ExitCode::failure,
                        fmt::format("{} of {} targets were missed. Run again on an idle machine; if "
@@ -189,10 +187,9 @@ void check(const Context& context, const PairsOptions& options) {
 void add_selection(CLI::App& pairs, PairsOptions& options) {
   add_choice(pairs, "--figure", options.figure, {"6", "7"},
              "Sweep of the paper: 6 is 10 to 1000 step 10, 7 is 1000 to 90000 step 1000");
-  pairs.add_option("--count", options.counts, "Pairs in a batch; several separated by commas")
+  add_whole(pairs, "--count", options.counts, 1, kMaxBatchPairs, "N",
+            "Pairs in a batch; several separated by commas")
       ->delimiter(',')
-      ->check(whole_number(1, kMaxBatchPairs))
-      ->type_name("N")
       ->default_str("10000")
       ->excludes("--figure");
   add_choice(pairs, "--type", options.type, {"real", "fake", "grazing", "mixed"},
@@ -203,46 +200,31 @@ void add_selection(CLI::App& pairs, PairsOptions& options) {
       ->capture_default_str();
   add_choice(pairs, "--precision", options.precision, {"f32", "f64", "all"}, "Precision")
       ->capture_default_str();
-  pairs
-      .add_option("--threads", options.threads,
-                  "Threads of the cpu device; several separated by commas, 0 for all")
+  add_whole(pairs, "--threads", options.threads, 0, 1024, "T",
+            "Threads of the cpu device; several separated by commas, 0 for all")
       ->delimiter(',')
-      ->check(whole_number(0, 1024))
-      ->type_name("T")
       ->default_str("1");
-  pairs.add_option("--device", options.device, "Device to compare with ODE")
-      ->type_name(device_choices())
-      ->capture_default_str();
-  pairs.add_option("--profile", options.profile, "Link of the simulated AFU, as for `harpoon afu`")
-      ->type_name("PROFILE")
-      ->capture_default_str();
+  add_name(pairs, "--device", options.device, device_choices(), "Device to compare with ODE");
+  add_name(pairs, "--profile", options.profile, "PROFILE",
+           "Link of the simulated AFU, as for `harpoon afu`");
 }
 
 void add_details(CLI::App& pairs, PairsOptions& options) {
-  pairs.add_option("--rounds", options.rounds, "Turns of each contestant at each count")
-      ->check(whole_number(1, 10000))
-      ->type_name("N")
-      ->capture_default_str();
-  pairs.add_option("--hmax", options.h_max, "Diamond to record from: shells around the centre")
-      ->check(whole_number(1, bench::kMaxDiamondHMax))
-      ->type_name("H")
-      ->capture_default_str();
-  pairs.add_option("--dsph", options.d_sph, "Diamond to record from: gap between spheres, metres")
-      ->type_name("D")
-      ->capture_default_str();
-  pairs.add_option("--spheres", options.spheres, "Distinct spheres of --format indexed")
-      ->check(whole_number(2, 100000000))
-      ->type_name("N")
-      ->capture_default_str();
-  pairs.add_option("--seed", options.seed, "Seed of the pairs of --format indexed")
-      ->type_name("N")
-      ->capture_default_str();
+  add_whole(pairs, "--rounds", options.rounds, 1, 10000, "N",
+            "Turns of each contestant at each count");
+  add_whole(pairs, "--hmax", options.h_max, 1, bench::kMaxDiamondHMax, "H",
+            "Diamond to record from: shells around the centre");
+  add_real(pairs, "--dsph", options.d_sph, 0, 1e6, "D",
+           "Diamond to record from: gap between spheres, metres");
+  add_whole(pairs, "--spheres", options.spheres, 2, 100000000, "N",
+            "Distinct spheres of --format indexed");
+  add_seed(pairs, options.seed, "Seed of the pairs of --format indexed");
   pairs.add_flag("--copy", options.copy, "Also measure the copy bandwidth of as many threads");
   pairs.add_flag("--check", options.check,
                  "Measure the promised figures of the cpu device instead; exit code 1 on a miss");
-  pairs.add_option("--json", options.json, "Write the results as JSON; - for standard output")
-      ->type_name("FILE");
-  pairs.add_option("--csv", options.csv, "Append the results to a CSV file")->type_name("FILE");
+  add_name(pairs, "--json", options.json, "FILE",
+           "Write the results as JSON; - for standard output");
+  add_name(pairs, "--csv", options.csv, "FILE", "Append the results to a CSV file");
 }
 
 }  // namespace
@@ -265,6 +247,7 @@ void add_bench_pairs(CLI::App& bench, Context& context) {
       "  harpoon bench pairs --count 8000000 --precision f32 --threads 1,2 --copy\n"
       "  harpoon bench pairs --check");
   pairs->callback([&context, options] {
+    context.memory_remedy = "Use a smaller --count, or fewer --spheres.";
     context.run = [&context, options] {
       options->check ? check(context, *options) : measure(context, *options);
     };

@@ -3,14 +3,14 @@
 #include <fmt/format.h>
 
 #include <CLI/CLI.hpp>
-#include <cstdio>
 #include <filesystem>
 
 #include "apps/command.hpp"
 #include "apps/exit_code.hpp"
 #include "apps/files.hpp"
-#include "apps/interrupt.hpp"
 #include "apps/options.hpp"
+#include "apps/output.hpp"
+#include "apps/printable.hpp"
 #include "apps/progress.hpp"
 #include "apps/table.hpp"
 #include "bench/scene/figures.hpp"
@@ -45,8 +45,8 @@ std::vector<std::string> peers_of(const std::vector<std::string>& names) {
     if (name == "all") return known;
     if (std::find(known.begin(), known.end(), name) == known.end()) {
       throw CommandError(ExitCode::usage,
-                         fmt::format("--against: no \"{}\" in this build; there are {}, all, none",
-                                     name, fmt::join(known, ", ")));
+                         fmt::format("--against: no {} in this build; there are {}, all, none",
+                                     in_quotes(name), fmt::join(known, ", ")));
     }
     peers.push_back(name);
   }
@@ -88,19 +88,26 @@ std::string describe(const Terminal& terminal, const bench::SceneOutcome& outcom
   return text;
 }
 
+/// The table goes to standard output unless the JSON does.
+void show(const SceneOptions& options, const std::string& table) {
+  options.json == "-" ? remark(table) : print("{}", table);
+}
+
 /// Writes to the file, or to standard output.
 void deliver_json(const std::string& file, const std::string& json) {
   if (file == "-") {
-    fmt::print("{}", json);
+    print("{}", json);
   } else if (!file.empty()) {
     write_file(file, json);
-    fmt::print("{}\n", file);
+    print("{}\n", shown(file));
   }
 }
 
 void require_outputs(const SceneOptions& options) {
   if (!options.json.empty() && options.json != "-") require_writable_file(options.json, "--json");
-  if (!options.write_docs.empty()) require_writable_folder(options.write_docs, "--write-docs");
+  if (!options.write_docs.empty()) {
+    require_writable_folder(options.write_docs, "--write-docs", {kFiguresFile, kPlotFile});
+  }
 }
 
 [[noreturn]] void disagree() {
@@ -120,10 +127,9 @@ void measure(const Context& context, const SceneOptions& options) {
   const auto outcome = [&] {
     Progress progress(context.terminal);
     const auto share = [&](double done) { progress.show(done, "measuring"); };
-    return value_or_throw(bench::run_scene(plan, share, is_interrupted));
+    return value_or_throw(bench::run_scene(plan, share, {}));
   }();
-  throw_if_interrupted();
-  fmt::print(options.json == "-" ? stderr : stdout, "{}", describe(context.terminal, outcome));
+  show(options, describe(context.terminal, outcome));
   deliver_json(options.json,
                bench::scene_json(plan, outcome, bench::describe_machine(), context.command_line));
   if (!outcome.counts_agree) disagree();
@@ -142,13 +148,12 @@ void measure_scaling(const Context& context, const SceneOptions& options, bool t
   const auto points = [&] {
     Progress progress(context.terminal);
     const auto share = [&](double done) { progress.show(done, "measuring"); };
-    return value_or_throw(bench::run_scaling(plan, share, is_interrupted));
+    return value_or_throw(bench::run_scaling(plan, share, {}));
   }();
-  throw_if_interrupted();
   const bench::Machine machine = bench::describe_machine();
   const std::string text =
       bench::scaling_markdown(points, machine, context.command_line, kPlotFile);
-  fmt::print(options.json == "-" ? stderr : stdout, "{}", text);
+  show(options, text);
   deliver_json(options.json, bench::scaling_json(plan, points, machine, context.command_line));
   if (!options.write_docs.empty()) {
     const std::filesystem::path folder = options.write_docs;
@@ -169,18 +174,11 @@ void add_bench_scene(CLI::App& bench, Context& context) {
   add_choice(*scene, "--kind", options->kind,
              {"gas", "packed", "polydisperse", "bed", "diamond", "clusters"}, "World")
       ->capture_default_str();
-  scene->add_option("--bodies", options->bodies, "Bodies")
-      ->check(whole_number(1, 100000000))
-      ->type_name("N")
-      ->capture_default_str();
-  scene->add_option("--frames", options->frames, "Measured frames, after three to warm up")
-      ->check(whole_number(1, 100000))
-      ->type_name("N")
-      ->capture_default_str();
-  scene->add_option("--threads", options->threads, "Threads of Harpoon; the others have one")
-      ->check(whole_number(1, 1024))
-      ->type_name("T")
-      ->capture_default_str();
+  add_whole(*scene, "--bodies", options->bodies, 1, 100000000, "N", "Bodies");
+  add_whole(*scene, "--frames", options->frames, 1, 100000, "N",
+            "Measured frames, after three to warm up");
+  add_whole(*scene, "--threads", options->threads, 1, 1024, "T",
+            "Threads of Harpoon; the others have one");
   add_choice(*scene, "--precision", options->precision, {"f32", "f64"}, "Precision of Harpoon")
       ->capture_default_str();
   scene
@@ -189,18 +187,14 @@ void add_bench_scene(CLI::App& bench, Context& context) {
       ->delimiter(',')
       ->type_name("ENGINES")
       ->default_str("none");
-  scene->add_option("--seed", options->seed, "Seed of the world")
-      ->type_name("N")
-      ->capture_default_str();
-  scene->add_option("--json", options->json, "Write the results as JSON; - for standard output")
-      ->type_name("FILE");
+  add_seed(*scene, options->seed, "Seed of the world");
+  add_name(*scene, "--json", options->json, "FILE",
+           "Write the results as JSON; - for standard output");
   auto* const scaling =
       scene->add_flag("--scaling", options->scaling,
                       "Sizes from 1,000 to --bodies, three kinds or the one named, without peers");
-  scene
-      ->add_option("--write-docs", options->write_docs,
-                   "With --scaling: write the tables and the plot of docs/ to this folder")
-      ->type_name("DIR")
+  add_name(*scene, "--write-docs", options->write_docs, "DIR",
+           "With --scaling: write the tables and the plot of docs/ to this folder")
       ->needs(scaling);
   scene->footer(
       "Every body moves by 2 % of its radius per frame. Figures are medians over frames in\n"
@@ -215,6 +209,7 @@ void add_bench_scene(CLI::App& bench, Context& context) {
       "  harpoon bench scene --bodies 1000000 --threads 2 --json scene.json\n"
       "  harpoon bench scene --scaling --bodies 4000000 --write-docs docs");
   scene->callback([&context, options, scene] {
+    context.memory_remedy = "Use fewer --bodies.";
     const bool three_kinds = scene->count("--kind") == 0;
     context.run = [&context, options, three_kinds] {
       options->scaling ? measure_scaling(context, *options, three_kinds)

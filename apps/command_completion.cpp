@@ -1,14 +1,13 @@
 // `harpoon completion` and `harpoon manual`: what is installed for shells and for man, printed by
 // the command itself so that it can never disagree with it.
 
-#include <fmt/format.h>
-
 #include <CLI/CLI.hpp>
 
 #include "apps/command.hpp"
 #include "apps/completion.hpp"
 #include "apps/manual.hpp"
 #include "apps/options.hpp"
+#include "apps/output.hpp"
 #include "harpoon/version.hpp"
 
 namespace harpoon::app {
@@ -22,9 +21,9 @@ void add_completion(CLI::App& root, Context& context) {
   completion->callback([&root, &context, shell] {
     context.run = [&root, shell] {
       const CommandInfo info = describe_command(root);
-      fmt::print("{}", *shell == "bash"  ? bash_completion(info)
-                       : *shell == "zsh" ? zsh_completion(info)
-                                         : fish_completion(info));
+      print("{}", *shell == "bash"  ? bash_completion(info)
+                  : *shell == "zsh" ? zsh_completion(info)
+                                    : fish_completion(info));
     };
   });
 }
@@ -34,7 +33,7 @@ void add_manual(CLI::App& root, Context& context) {
   manual->footer("Example:\n  harpoon manual | man -l -");
   manual->callback([&root, &context] {
     context.run = [&root] {
-      fmt::print("{}", manual_page(describe_command(root), std::string(version())));
+      print("{}", manual_page(describe_command(root), std::string(version())));
     };
   });
 }

@@ -12,7 +12,8 @@
 #include "apps/experiment.hpp"
 #include "apps/figures.hpp"
 #include "apps/files.hpp"
-#include "apps/interrupt.hpp"
+#include "apps/options.hpp"
+#include "apps/output.hpp"
 #include "apps/progress.hpp"
 #include "apps/report.hpp"
 #include "apps/result_table.hpp"
@@ -33,7 +34,7 @@ Experiment run_shown(const Context& context, const ExperimentPlan& plan) {
   Progress progress(context.terminal);
   progress.show(0, "recording the diamond");
   const auto share = [&](double done) { progress.show(done, title_at(done)); };
-  return run_experiment(plan, share, is_interrupted);
+  return run_experiment(plan, share);
 }
 
 bench::ResultSet to_results(const Context& context, const Experiment& experiment) {
@@ -48,15 +49,21 @@ bench::ResultSet to_results(const Context& context, const Experiment& experiment
           report_notes(experiment)};
 }
 
+constexpr const char* kReport = "report.html";
+constexpr const char* kJson = "results.json";
+constexpr const char* kCsv = "results.csv";
+constexpr const char* kFigure6 = "figure6.csv";
+constexpr const char* kFigure7 = "figure7.csv";
+
 // The paths of what was written, the report first.
 std::vector<std::filesystem::path> write_all(const std::filesystem::path& out,
                                              const Experiment& experiment,
                                              const bench::ResultSet& results) {
-  const std::filesystem::path report = out / "report.html";
-  const std::filesystem::path json = out / "results.json";
-  const std::filesystem::path csv = out / "results.csv";
-  const std::filesystem::path figure6 = out / "figure6.csv";
-  const std::filesystem::path figure7 = out / "figure7.csv";
+  const std::filesystem::path report = out / kReport;
+  const std::filesystem::path json = out / kJson;
+  const std::filesystem::path csv = out / kCsv;
+  const std::filesystem::path figure6 = out / kFigure6;
+  const std::filesystem::path figure7 = out / kFigure7;
   write_file(report, fill_template(report_template(), report_data(experiment, results)));
   write_file(json, bench::to_json(results));
   write_file(csv, bench::csv_header() + "\n" + bench::to_csv(results));
@@ -67,22 +74,21 @@ std::vector<std::filesystem::path> write_all(const std::filesystem::path& out,
 
 void print_claims(const Context& context, const Experiment& experiment) {
   for (const Claim& claim : judge_claims(experiment)) {
-    fmt::print("{}\n  here: {} {}\n", "Paper: " + claim.paper, claim.ours,
-               coloured(context.terminal, Colour::bold, "[" + claim.verdict + "]"));
+    print("{}\n  here: {} {}\n", "Paper: " + claim.paper, claim.ours,
+          coloured(context.terminal, Colour::bold, "[" + claim.verdict + "]"));
   }
 }
 
 void run(const Context& context, const DemoOptions& options) {
-  require_writable_folder(options.out, "--out");
+  require_writable_folder(options.out, "--out", {kReport, kJson, kCsv, kFigure6, kFigure7});
   const ExperimentPlan plan{open_devices("all", {1}), open_devices("all", {1, 0}), options.quick};
   const Experiment experiment = run_shown(context, plan);
-  throw_if_interrupted();
   const bench::ResultSet results = to_results(context, experiment);
-  fmt::print("{}\n", describe_results(context.terminal, results));
+  print("{}\n", describe_results(context.terminal, results));
   print_claims(context, experiment);
-  fmt::print("\nWritten:\n");
+  print("\nWritten:\n");
   for (const std::filesystem::path& path : write_all(options.out, experiment, results)) {
-    fmt::print("  {}\n", path.string());
+    print("  {}\n", shown(path));
   }
   if (!experiment.contacts_are_right()) {
     throw CommandError(ExitCode::failure,
@@ -96,9 +102,7 @@ void add_demo(CLI::App& root, Context& context) {
   CLI::App* demo = root.add_subcommand(
       "demo", "The paper's experiment end to end: table, Figures 6 and 7, report");
   auto options = std::make_shared<DemoOptions>();
-  demo->add_option("--out", options->out, "Folder to write the report and the data into")
-      ->type_name("DIR")
-      ->capture_default_str();
+  add_name(*demo, "--out", options->out, "DIR", "Folder to write the report and the data into");
   demo->add_flag("--quick", options->quick,
                  "Few points and one round: to see that it works, not to measure");
   demo->footer(

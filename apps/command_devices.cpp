@@ -1,11 +1,10 @@
 // `harpoon devices`: what can compute on this machine, and how to get what is missing.
 
-#include <fmt/format.h>
-
 #include <CLI/CLI.hpp>
 
 #include "apps/command.hpp"
 #include "apps/device_catalog.hpp"
+#include "apps/output.hpp"
 #include "apps/table.hpp"
 
 namespace harpoon::app {
@@ -14,18 +13,18 @@ namespace {
 void list(const Terminal& terminal) {
   std::vector<std::vector<Cell>> rows;
   for (const CatalogEntry& entry : device_catalog()) {
-    const DeviceInfo& info = entry.info;
+    const DeviceInfo info = entry.look();
     rows.push_back({info.name,
                     info.available ? Cell("yes", Colour::green) : Cell("no", Colour::red),
                     info.modelled ? "modelled" : "measured", info.description});
   }
-  fmt::print("{}", format_table(terminal,
-                                {{"device"}, {"available"}, {"times are"}, {"description"}}, rows));
+  print("{}",
+        format_table(terminal, {{"device"}, {"available"}, {"times are"}, {"description"}}, rows));
   std::string sets;
   for (const std::string& set : cpu_instruction_sets()) {
     sets += (sets.empty() ? "" : ", ") + set;
   }
-  fmt::print("\nInstruction sets of cpu here: {}\n", sets);
+  print("\nInstruction sets of cpu here: {}\n", sets);
 }
 
 }  // namespace

@@ -2,16 +2,15 @@
 // says how far an earlier run was elsewhere.
 
 #include <fmt/format.h>
-#include <fmt/ostream.h>
 
 #include <CLI/CLI.hpp>
 #include <filesystem>
-#include <ostream>
 
 #include "apps/command.hpp"
 #include "apps/exit_code.hpp"
 #include "apps/files.hpp"
-#include "apps/interrupt.hpp"
+#include "apps/options.hpp"
+#include "apps/output.hpp"
 #include "apps/progress.hpp"
 #include "apps/table.hpp"
 #include "bench/divergence.hpp"
@@ -20,6 +19,9 @@
 
 namespace harpoon::app {
 namespace {
+
+/// Bound of lengths, times and forces, and its inverse of those that are not 0.
+constexpr double kFarthest = 1e6;
 
 struct DiamondOptions {
   bench::DiamondParameters world;
@@ -30,17 +32,28 @@ struct DiamondOptions {
   std::string plot;
 };
 
-void write_positions(std::ostream& out, unsigned step, const bench::DiamondWorld& world) {
+/// Where the state goes: to a file, which cannot always be read again, and to be compared.
+struct Positions {
+  Output& out;
+  std::string* copy;  ///< may be null
+
+  void write(const std::string& text) {
+    out.write(text);
+    if (copy != nullptr) *copy += text;
+  }
+};
+
+void write_positions(Positions& positions, unsigned step, const bench::DiamondWorld& world) {
   for (std::size_t i = 0; i < world.size(); ++i) {
-    out << bench::position_line(step, i, world.position(i));
+    positions.write(bench::position_line(step, i, world.position(i)));
   }
 }
 
-void write_contact(std::ostream& out, unsigned step, const bench::Candidate& candidate) {
+void write_contact(Output& out, unsigned step, const bench::Candidate& candidate) {
   const ContactF64& c = *candidate.contact;
-  fmt::print(out, "{},{},{},{},{},{},{},{},{},{},{}\n", step, candidate.spheres.g1,
-             candidate.spheres.g2, c.pos[0], c.pos[1], c.pos[2], c.normal[0], c.normal[1],
-             c.normal[2], c.depth, candidate.flow == Flow::grazing ? "grazing" : "real");
+  out.print("{},{},{},{},{},{},{},{},{},{},{}\n", step, candidate.spheres.g1, candidate.spheres.g2,
+            c.pos[0], c.pos[1], c.pos[2], c.normal[0], c.normal[1], c.normal[2], c.depth,
+            candidate.flow == Flow::grazing ? "grazing" : "real");
 }
 
 struct Totals {
@@ -49,13 +62,12 @@ struct Totals {
 };
 
 // Writes the state before each step that is wanted, and the contacts that ODE finds there.
-Totals run_world(const DiamondOptions& options, bench::DiamondWorld& world, std::ostream& positions,
-                 std::ostream& contacts, Progress& progress) {
-  positions << bench::kPositionsHeader << '\n';
-  contacts << "step,g1,g2,x,y,z,nx,ny,nz,depth,type\n";
+Totals run_world(const DiamondOptions& options, bench::DiamondWorld& world, Positions positions,
+                 Output& contacts, Progress& progress) {
+  positions.write(fmt::format("{}\n", bench::kPositionsHeader));
+  contacts.print("step,g1,g2,x,y,z,nx,ny,nz,depth,type\n");
   Totals totals;
   for (unsigned step = 0; step < options.steps; ++step) {
-    throw_if_interrupted();
     const bool is_wanted = step % options.every == 0;
     if (is_wanted) {
       write_positions(positions, step, world);
@@ -75,6 +87,7 @@ Totals run_world(const DiamondOptions& options, bench::DiamondWorld& world, std:
 }
 
 constexpr const char* kPositionsFile = "positions.csv";
+constexpr const char* kContactsFile = "contacts.csv";
 
 /// The positions of the run to compare with; empty when none is wanted.
 std::string read_earlier(const DiamondOptions& options) {
@@ -86,7 +99,13 @@ std::string read_earlier(const DiamondOptions& options) {
                        "elsewhere with --out.");
   }
   if (!options.plot.empty()) require_writable_file(options.plot, "--plot");
-  return read_file(folder / kPositionsFile);
+  std::string earlier = read_text_file(folder / kPositionsFile);
+  if (!earlier.starts_with(bench::kPositionsHeader)) {
+    throw CommandError(ExitCode::data,
+                       fmt::format("{} does not begin with \"{}\". Give the folder of a run.",
+                                   shown(folder / kPositionsFile), bench::kPositionsHeader));
+  }
+  return earlier;
 }
 
 std::string describe(const Terminal& terminal, const std::vector<bench::Divergence>& divergence) {
@@ -106,41 +125,41 @@ void compare(const Context& context, const DiamondOptions& options, const std::s
     throw CommandError(ExitCode::failure,
                        fmt::format("{} does not compare with this run: {}. Give a run of the same "
                                    "world with the same steps.",
-                                   file.string(), divergence.error().message));
+                                   shown(file), divergence.error().message));
   }
   if (earlier == positions) {
-    fmt::print("the positions are those of {}, bit by bit\n", file.string());
+    print("the positions are those of {}, bit by bit\n", shown(file));
   } else {
-    fmt::print("distances between the spheres of both runs:\n{}",
-               describe(context.terminal, *divergence));
+    print("distances between the spheres of both runs:\n{}",
+          describe(context.terminal, *divergence));
   }
   if (options.plot.empty()) return;
   const std::string caption = fmt::format(
       "step; distance between the spheres of both runs, m, hMax {}", options.world.h_max);
   write_file(options.plot, bench::divergence_svg(*divergence, caption));
-  fmt::print("{}\n", options.plot);
+  print("{}\n", shown(options.plot));
 }
 
 void run(const Context& context, const DiamondOptions& options) {
   const auto world = value_or_throw(bench::DiamondWorld::create(options.world));
   const std::filesystem::path out = options.out;
   const std::string earlier = read_earlier(options);
-  require_writable_folder(out, "--out");
-  const auto positions_file = out / kPositionsFile;
-  const auto contacts_file = out / "contacts.csv";
+  require_writable_folder(out, "--out", {kPositionsFile, kContactsFile});
   Totals totals;
+  std::string text;
   {
+    OutputFile positions(out / kPositionsFile, "--out");
+    OutputFile contacts(out / kContactsFile, "--out");
     Progress progress(context.terminal);
-    write_file(positions_file, [&](std::ostream& positions) {
-      write_file(contacts_file, [&](std::ostream& contacts) {
-        totals = run_world(options, *world, positions, contacts, progress);
-      });
-    });
+    const Positions both{positions.out(), options.against.empty() ? nullptr : &text};
+    totals = run_world(options, *world, both, contacts.out(), progress);
+    positions.commit();
+    contacts.commit();
   }
-  fmt::print("{} spheres, {} steps, {} candidate pairs, {} contacts\n{}\n{}\n", world->size(),
-             options.steps, totals.candidates, totals.contacts, positions_file.string(),
-             contacts_file.string());
-  if (!options.against.empty()) compare(context, options, earlier, read_file(positions_file));
+  print("{} spheres, {} steps, {} candidate pairs, {} contacts\n{}\n{}\n", world->size(),
+        options.steps, totals.candidates, totals.contacts, shown(out / kPositionsFile),
+        shown(out / kContactsFile));
+  if (!options.against.empty()) compare(context, options, earlier, text);
 }
 
 }  // namespace
@@ -149,41 +168,25 @@ void add_diamond(CLI::App& root, Context& context) {
   CLI::App* diamond = root.add_subcommand(
       "diamond", "Run the paper's world on ODE; write positions and contacts as CSV");
   auto options = std::make_shared<DiamondOptions>();
-  diamond->add_option("--hmax", options->world.h_max, "Shells of spheres around the centre one")
-      ->check(CLI::Range(0U, bench::kMaxDiamondHMax))
-      ->type_name("H")
-      ->capture_default_str();
-  diamond->add_option("--dsph", options->world.d_sph, "Gap between neighbouring spheres, metres")
-      ->type_name("D")
-      ->capture_default_str();
-  diamond->add_option("--steps", options->steps, "World steps to run")
-      ->check(CLI::Range(1, 1000000))
-      ->type_name("N")
-      ->capture_default_str();
-  diamond->add_option("--every", options->every, "Write every so many steps")
-      ->check(CLI::Range(1, 1000000))
-      ->type_name("N")
-      ->capture_default_str();
-  diamond->add_option("--radius", options->world.radius, "Radius of a sphere, metres")
-      ->type_name("R")
-      ->capture_default_str();
-  diamond->add_option("--force", options->world.force, "Force toward the centre, newton")
-      ->type_name("F")
-      ->capture_default_str();
-  diamond->add_option("--time-step", options->world.time_step, "Time step, seconds")
-      ->type_name("T")
-      ->capture_default_str();
-  diamond->add_option("--out", options->out, "Folder to write positions.csv and contacts.csv into")
-      ->type_name("DIR")
-      ->capture_default_str();
+  bench::DiamondParameters& world = options->world;
+  add_whole(*diamond, "--hmax", world.h_max, 0, bench::kMaxDiamondHMax, "H",
+            "Shells of spheres around the centre one");
+  add_real(*diamond, "--dsph", world.d_sph, 0, kFarthest, "D",
+           "Gap between neighbouring spheres, metres");
+  add_whole(*diamond, "--steps", options->steps, 1, 1000000, "N", "World steps to run");
+  add_whole(*diamond, "--every", options->every, 1, 1000000, "N", "Write every so many steps");
+  add_real(*diamond, "--radius", world.radius, 1 / kFarthest, kFarthest, "R",
+           "Radius of a sphere, metres");
+  add_real(*diamond, "--force", world.force, -kFarthest, kFarthest, "F",
+           "Force toward the centre, newton");
+  add_real(*diamond, "--time-step", world.time_step, 1 / kFarthest, kFarthest, "T",
+           "Time step, seconds");
+  add_name(*diamond, "--out", options->out, "DIR",
+           "Folder to write positions.csv and contacts.csv into");
   CLI::Option* const against =
-      diamond
-          ->add_option("--against", options->against,
-                       "Folder of an earlier run of this world: print how far its spheres are from "
-                       "these")
-          ->type_name("DIR");
-  diamond->add_option("--plot", options->plot, "Write the distances as an SVG plot")
-      ->type_name("FILE")
+      add_name(*diamond, "--against", options->against, "DIR",
+               "Folder of an earlier run of this world: print how far its spheres are from these");
+  add_name(*diamond, "--plot", options->plot, "FILE", "Write the distances as an SVG plot")
       ->needs(against);
   diamond->footer(
       "The state written for a step is the one in which its contacts were found, before the world "
@@ -192,8 +195,10 @@ void add_diamond(CLI::App& root, Context& context) {
       "  harpoon diamond --steps 200 --every 10 --out stock\n"
       "  harpoon run --precision f32 -- \\\n"
       "    harpoon diamond --steps 200 --every 10 --out f32 --against stock --plot f32.svg");
-  diamond->callback(
-      [&context, options] { context.run = [&context, options] { run(context, *options); }; });
+  diamond->callback([&context, options] {
+    context.memory_remedy = "Use a smaller --hmax.";
+    context.run = [&context, options] { run(context, *options); };
+  });
 }
 
 }  // namespace harpoon::app

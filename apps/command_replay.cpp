@@ -9,6 +9,9 @@
 #include "apps/command.hpp"
 #include "apps/exit_code.hpp"
 #include "apps/files.hpp"
+#include "apps/options.hpp"
+#include "apps/output.hpp"
+#include "apps/printable.hpp"
 #include "apps/stock_frame.hpp"
 #include "ode/frame_file.hpp"
 
@@ -37,16 +40,20 @@ std::string pair_at(const ode::CollisionFrame& frame, const Pairs& pairs, std::s
 }
 
 void replay(const std::string& file) {
-  const ode::CollisionFrame frame = value_or_throw(ode::parse_frame(read_file(file)));
+  const Result<ode::CollisionFrame> parsed = ode::parse_frame(read_text_file(file));
+  if (!parsed) {
+    throw CommandError(ExitCode::data, fmt::format("{}: {}", shown(file), parsed.error().message));
+  }
+  const ode::CollisionFrame& frame = *parsed;
   const Pairs stock = collide_in_stock(frame);
   const Pairs ours = value_or_throw(ode::search_again(frame));
-  fmt::print("recorded: {}\n", frame.difference);
-  fmt::print("stock: {} pairs, {} the recorded ones\n", stock.size(),
-             same(stock, frame.stock) ? "exactly" : "not");
-  fmt::print("harpoon: {} pairs, {} the recorded ones\n", ours.size(),
-             same(ours, frame.ours) ? "exactly" : "not");
+  print("recorded: {}\n", printable(frame.difference));
+  print("stock: {} pairs, {} the recorded ones\n", stock.size(),
+        same(stock, frame.stock) ? "exactly" : "not");
+  print("harpoon: {} pairs, {} the recorded ones\n", ours.size(),
+        same(ours, frame.ours) ? "exactly" : "not");
   if (same(stock, ours)) {
-    fmt::print("they are the same here\n");
+    print("they are the same here\n");
     return;
   }
   const auto [at, stock_at] =
@@ -63,7 +70,7 @@ void add_replay(CLI::App& root, Context& context) {
   CLI::App* command =
       root.add_subcommand("replay", "Repeat a difference that HARPOON_VERIFY found");
   auto file = std::make_shared<std::string>();
-  command->add_option("file", *file, "What verification wrote")->type_name("FILE")->required();
+  add_name(*command, "file", *file, "FILE", "What verification wrote")->required();
   command->footer(
       "Collides the recorded geoms in stock ODE and by Harpoon's rules. Exit code 1 when they\n"
       "differ.\n\n"

@@ -48,9 +48,7 @@ void add_run(CLI::App& root, Context& context) {
   add_choice(*command, "--precision", options->precision, {"exact", "f32"},
              "Contacts of spheres with stock's bits, or in binary32")
       ->capture_default_str();
-  command->add_option("--device", options->device, "Device for contacts of spheres")
-      ->type_name("NAME")
-      ->capture_default_str();
+  add_name(*command, "--device", options->device, "NAME", "Device for contacts of spheres");
   command->add_flag("--verify", options->verify, "Compare every pair and contact with stock ODE");
   command->add_flag("--stats", options->statistics, "Print one line of statistics at the end");
   command->add_flag("--require", options->require,

@@ -9,7 +9,8 @@
 #include "apps/command.hpp"
 #include "apps/device_catalog.hpp"
 #include "apps/exit_code.hpp"
-#include "apps/interrupt.hpp"
+#include "apps/options.hpp"
+#include "apps/output.hpp"
 #include "apps/progress.hpp"
 #include "apps/table.hpp"
 #include "bench/selftest.hpp"
@@ -48,8 +49,7 @@ std::vector<bench::Oracle> oracles() {
 #if HARPOON_WITH_ODE
   return {bench::make_ode_oracle()};
 #else
-  fmt::print(
-      "Without ODE in this build, dCollide is not compared (install libode-dev, rebuild).\n");
+  print("Without ODE in this build, dCollide is not compared (install libode-dev, rebuild).\n");
   return {};
 #endif
 }
@@ -98,7 +98,7 @@ std::vector<bench::SelftestCheck> run_shown(const Context& context,
   const auto on_check = [&](const bench::SelftestCheck& check) {
     progress.show(++done / all, fmt::format("{}: {} {}", check.device, check.form, check.against));
   };
-  return bench::run_selftest(plan, on_check, is_interrupted);
+  return bench::run_selftest(plan, on_check);
 }
 
 void run(const Context& context, const SelftestOptions& options) {
@@ -108,16 +108,15 @@ void run(const Context& context, const SelftestOptions& options) {
   plan.pairs = options.pairs;
   plan.seed = options.seed;
   const std::vector<bench::SelftestCheck> checks = run_shown(context, plan);
-  throw_if_interrupted();
-  fmt::print("{}\n", matrix_of(context.terminal, checks));
+  print("{}\n", matrix_of(context.terminal, checks));
   std::size_t failed = 0;
   std::uint64_t pairs = 0;
   for (const bench::SelftestCheck& check : checks) {
     pairs += check.pairs;
     if (!check.passed()) {
       ++failed;
-      fmt::print("{}, {}, {}: {} mismatches. {}\n", check.device, check.form, check.against,
-                 check.mismatches, check.first_mismatch);
+      print("{}, {}, {}: {} mismatches. {}\n", check.device, check.form, check.against,
+            check.mismatches, check.first_mismatch);
     }
   }
   if (failed > 0) {
@@ -127,8 +126,8 @@ void run(const Context& context, const SelftestOptions& options) {
                     "report the lines above.",
                     failed, checks.size(), options.seed));
   }
-  fmt::print("All {} checks passed: records, arrays and indexed, {} contacts (seed {}).\n",
-             checks.size(), pairs, options.seed);
+  print("All {} checks passed: records, arrays and indexed, {} contacts (seed {}).\n",
+        checks.size(), pairs, options.seed);
 }
 
 }  // namespace
@@ -137,21 +136,16 @@ void add_selftest(CLI::App& root, Context& context) {
   CLI::App* selftest = root.add_subcommand(
       "selftest", "Compare every device and instruction set with plain Algorithm 1 and dCollide");
   auto options = std::make_shared<SelftestOptions>();
-  selftest->add_option("--pairs", options->pairs, "Pairs in each check")
-      ->check(CLI::Range(8, 50000000))
-      ->type_name("N")
-      ->capture_default_str();
-  selftest->add_option("--seed", options->seed, "Seed of the random pairs")
-      ->type_name("N")
-      ->capture_default_str();
-  selftest->add_option("--device", options->device, "Device to test")
-      ->type_name(device_choices())
-      ->capture_default_str();
+  add_whole(*selftest, "--pairs", options->pairs, 8, 50000000, "N", "Pairs in each check");
+  add_seed(*selftest, options->seed, "Seed of the random pairs");
+  add_name(*selftest, "--device", options->device, device_choices(), "Device to test");
   selftest->footer(
       "Contacts are compared bit by bit (any NaN equals any NaN). Exit code 1 when one differs.\n\n"
       "Examples:\n  harpoon selftest\n  harpoon selftest --device cpu --pairs 10000000 --seed 7");
-  selftest->callback(
-      [&context, options] { context.run = [&context, options] { run(context, *options); }; });
+  selftest->callback([&context, options] {
+    context.memory_remedy = "Use fewer --pairs.";
+    context.run = [&context, options] { run(context, *options); };
+  });
 }
 
 }  // namespace harpoon::app

@@ -48,6 +48,14 @@ bool takes_value(const OptionInfo& option) {
   return !option.is_positional && !option.type.empty();
 }
 
+/// What stands at the end of a command line by its place: "FILE", "COMMAND", or "".
+std::string positional_type(const CommandInfo& command) {
+  for (const OptionInfo& option : command.options) {
+    if (option.is_positional && option.choices.empty()) return option.type;
+  }
+  return "";
+}
+
 std::vector<std::string> words_of(const CommandInfo& command) {
   std::vector<std::string> words;
   for (const CommandInfo& sub : command.subcommands) {
@@ -82,6 +90,26 @@ std::string bash_values(const OptionInfo& option) {
   return fmt::format("COMPREPLY=($(compgen -W '{}' -- \"$word\"))", fmt::join(option.choices, " "));
 }
 
+/// Adds to what is offered for a word that is no option.
+std::string bash_positional(const CommandInfo& command) {
+  const std::string type = positional_type(command);
+  if (type == "FILE") return "; more=-f";
+  return type == "COMMAND" ? "; more='-c -f'" : "";
+}
+
+std::string zsh_positional(const CommandInfo& command) {
+  const std::string type = positional_type(command);
+  if (type == "FILE") return "; _files";
+  return type == "COMMAND" ? "; _command_names -e; _files" : "";
+}
+
+/// Words of a positional. -f keeps fish from offering files, -F makes it; it refuses both at once.
+std::string fish_positional(const OptionInfo& option) {
+  if (option.type == "FILE") return " -F";
+  if (option.type == "COMMAND") return " -F -a '(__fish_complete_command)'";
+  return fmt::format(" -f -a '{}'", fmt::join(option.choices, " "));
+}
+
 std::string zsh_values(const OptionInfo& option) {
   if (option.type == "FILE") {
     return "_files";
@@ -95,7 +123,7 @@ std::string zsh_values(const OptionInfo& option) {
 
 std::string fish_values(const OptionInfo& option) {
   if (option.type.empty()) {
-    return "";
+    return " -f";
   }
   if (option.type == "FILE") {
     return " -r -F";
@@ -119,12 +147,13 @@ std::string bash_completion(const CommandInfo& root) {
                               option_patterns(*command, option), bash_values(option));
       }
     }
-    words += fmt::format("    {}) words='{}' ;;\n", quoted(command->path),
-                         fmt::join(words_of(*command), " "));
+    words += fmt::format("    {}) words='{}'{} ;;\n", quoted(command->path),
+                         fmt::join(words_of(*command), " "), bash_positional(*command));
   }
   return fmt::format(R"(# Completion of harpoon for bash; written by `harpoon completion bash`.
 _harpoon() {{
-  local word=${{COMP_WORDS[COMP_CWORD]}} before=${{COMP_WORDS[COMP_CWORD-1]}} at=harpoon words='' i
+  local word=${{COMP_WORDS[COMP_CWORD]}} before=${{COMP_WORDS[COMP_CWORD-1]}}
+  local at=harpoon words='' more='' i
   for ((i = 1; i < COMP_CWORD; i++)); do
     case "$at ${{COMP_WORDS[i]}}" in
       {}) at="$at ${{COMP_WORDS[i]}}" ;;
@@ -135,6 +164,9 @@ _harpoon() {{
   case "$at" in
 {}  esac
   COMPREPLY=($(compgen -W "$words" -- "$word"))
+  if [[ -n $more && $word != -* ]]; then
+    COMPREPLY+=($(compgen $more -- "$word"))
+  fi
 }}
 complete -F _harpoon harpoon
 )",
@@ -161,7 +193,8 @@ std::string zsh_completion(const CommandInfo& root) {
                               zsh_values(option));
       }
     }
-    words += fmt::format("    {}) entries=({}) ;;\n", quoted(command->path), entries);
+    words += fmt::format("    {}) entries=({}){} ;;\n", quoted(command->path), entries,
+                         zsh_positional(*command));
   }
   return fmt::format(R"(#compdef harpoon
 # Completion of harpoon for zsh; written by `harpoon completion zsh`.
@@ -193,15 +226,14 @@ std::string fish_completion(const CommandInfo& root) {
       paths += quoted(command->path);
     }
     const std::string here =
-        fmt::format("complete -c harpoon -f -n '__harpoon_at \"{}\"'", command->path);
+        fmt::format("complete -c harpoon -n '__harpoon_at \"{}\"'", command->path);
     for (const CommandInfo& sub : command->subcommands) {
-      lines += fmt::format("{} -a {} -d {}\n", here, sub.name, quoted(sub.help));
+      lines += fmt::format("{} -f -a {} -d {}\n", here, sub.name, quoted(sub.help));
     }
     for (const OptionInfo& option : command->options) {
       std::string names;
       if (option.is_positional) {
-        lines += fmt::format("{} -a '{}' -d {}\n", here, fmt::join(option.choices, " "),
-                             quoted(option.help));
+        lines += fmt::format("{}{} -d {}\n", here, fish_positional(option), quoted(option.help));
         continue;
       }
       for (const std::string& name : option.names) {

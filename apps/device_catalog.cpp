@@ -7,6 +7,7 @@
 
 #include "apps/afu_entry.hpp"
 #include "apps/exit_code.hpp"
+#include "apps/printable.hpp"
 
 namespace harpoon::app {
 namespace {
@@ -19,29 +20,27 @@ Result<std::unique_ptr<Device>> open_cpu(unsigned threads) {
   return make_cpu_device(options);
 }
 
+/// The library lists cpu where it can be made.
+DeviceInfo look_at_cpu() {
+  for (DeviceInfo& info : list_devices()) {
+    if (info.name == kCpu) return std::move(info);
+  }
+  return {.name = kCpu, .description = "it cannot be made: too little memory"};
+}
+
 void open_entry(const CatalogEntry& entry, const std::vector<unsigned>& threads,
                 std::vector<bench::NamedDevice>& opened) {
   const std::vector<unsigned> wanted =
       entry.has_threads ? thread_counts(threads) : std::vector<unsigned>{1};
   for (const unsigned t : wanted) {
-    opened.push_back({entry.info.name, t, value_or_throw(entry.open(t))});
+    opened.push_back({entry.name, t, value_or_throw(entry.open(t))});
   }
 }
 
 }  // namespace
 
 std::vector<CatalogEntry> device_catalog(const std::string& afu_profile) {
-  std::vector<CatalogEntry> entries;
-  for (DeviceInfo& info : list_devices()) {
-    const std::string name = info.name;
-    if (name == kCpu) {
-      entries.push_back({std::move(info), open_cpu, true});
-    } else {
-      entries.push_back({std::move(info), [name](unsigned) { return open_device(name); }, false});
-    }
-  }
-  entries.push_back(afu_entry(afu_profile));
-  return entries;
+  return {{kCpu, look_at_cpu, open_cpu, true}, afu_entry(afu_profile)};
 }
 
 std::vector<bench::NamedDevice> open_devices(const std::string& selection,
@@ -50,21 +49,20 @@ std::vector<bench::NamedDevice> open_devices(const std::string& selection,
   std::vector<bench::NamedDevice> opened;
   bool is_known = selection == "all";
   for (const CatalogEntry& entry : device_catalog(afu_profile)) {
-    if (selection == "all" && entry.info.available) {
+    if (selection != "all" && selection != entry.name) continue;
+    is_known = true;
+    const DeviceInfo info = entry.look();
+    if (info.available) {
       open_entry(entry, threads, opened);
-    } else if (selection == entry.info.name) {
-      is_known = true;
-      if (!entry.info.available) {
-        throw CommandError(ExitCode::environment, fmt::format("Device {} is not available: {}",
-                                                              selection, entry.info.description));
-      }
-      open_entry(entry, threads, opened);
+    } else if (selection != "all") {
+      throw CommandError(ExitCode::environment, fmt::format("Device {} is not available: {}",
+                                                            selection, info.description));
     }
   }
   if (!is_known) {
     throw CommandError(ExitCode::usage,
-                       fmt::format("--device: there is no device {}. Use one of {}.", selection,
-                                   device_choices()));
+                       fmt::format("--device: there is no device {}. Use one of {}.",
+                                   in_quotes(selection), device_choices()));
   }
   return opened;
 }
@@ -80,7 +78,7 @@ std::vector<unsigned> thread_counts(std::vector<unsigned> threads) {
 std::string device_choices() {
   std::string choices = "all";
   for (const CatalogEntry& entry : device_catalog()) {
-    choices += "|" + entry.info.name;
+    choices += "|" + entry.name;
   }
   return choices;
 }

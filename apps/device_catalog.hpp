@@ -12,8 +12,11 @@
 
 namespace harpoon::app {
 
+/// A device by name. Its name is known without it.
 struct CatalogEntry {
-  DeviceInfo info;
+  std::string name;
+  /// Looks whether it is there and what it is, which may take as long as to open it.
+  std::function<DeviceInfo()> look;
   /// `threads` is for devices that have them (cpu): 0 means all.
   std::function<Result<std::unique_ptr<Device>>(unsigned threads)> open;
   bool has_threads = false;
@@ -22,8 +25,8 @@ struct CatalogEntry {
 /// The link of a simulated AFU, unless another is asked for.
 inline constexpr const char* kDefaultAfuProfile = "harp";
 
-/// Every device, available or not, cpu first. Throws CommandError (usage) for a link profile that
-/// does not parse.
+/// Every device, available or not, cpu first; opens none. Throws CommandError (usage) for a link
+/// profile that does not parse.
 std::vector<CatalogEntry> device_catalog(const std::string& afu_profile = kDefaultAfuProfile);
 
 /// Opens `selection`, "all" or a name, with each of `threads` where the device has threads and once

@@ -15,6 +15,9 @@
 #include <string_view>
 
 #include "apps/exit_code.hpp"
+#include "apps/files.hpp"
+#include "apps/output.hpp"
+#include "apps/signals.hpp"
 #include "ode/arrival.hpp"
 
 namespace harpoon::app {
@@ -39,7 +42,7 @@ std::filesystem::path find_drop_in() {
   throw CommandError(ExitCode::environment,
                      fmt::format("There is no libharpoon_ode.so beside {}. Build or install the "
                                  "whole of Harpoon.",
-                                 self.string()));
+                                 shown(self)));
 }
 
 namespace {
@@ -52,7 +55,7 @@ void set_environment(const std::vector<Variable>& variables) {
     throw CommandError(ExitCode::environment,
                        fmt::format("{} cannot be preloaded: there is a colon or a space in its "
                                    "path. Install Harpoon elsewhere.",
-                                   preload));
+                                   shown(preload)));
   }
   if (const char* already = std::getenv(kPreload.data()); already != nullptr && *already != '\0') {
     preload = fmt::format("{}:{}", preload, already);
@@ -66,12 +69,13 @@ void become(const std::vector<std::string>& command) {
   std::vector<char*> arguments;
   for (const std::string& word : command) arguments.push_back(const_cast<char*>(word.c_str()));
   arguments.push_back(nullptr);
+  leave_signals_alone();
   ::execvp(arguments[0], arguments.data());
 }
 
 [[noreturn]] void refuse(const std::vector<std::string>& command, int error) {
   throw CommandError(ExitCode::environment, fmt::format("{}: {}. Give a program that is there.",
-                                                        command[0], std::strerror(error)));
+                                                        shown(command[0]), std::strerror(error)));
 }
 
 [[noreturn]] void refuse_process() {
@@ -194,7 +198,7 @@ void run_and_watch(const std::vector<std::string>& command, const std::vector<Va
                          fmt::format("{} (the program itself ended with exit code {})", absent,
                                      WEXITSTATUS(status)));
     }
-    fmt::print(stderr, "harpoon: {}\n", absent);
+    note("harpoon: {}\n", absent);
   }
   end_as(status);
 }

@@ -12,11 +12,11 @@ namespace harpoon::app {
 
 enum class ExitCode : int {
   ok = 0,
-  failure = 1,        ///< the command ran and found something wrong: a mismatch, a missed target
-  usage = 2,          ///< bad option, value or command
-  environment = 3,    ///< a file, device, package or memory that is not there
-  not_served = 5,     ///< `run --require`: no call of ODE arrived, or none could be served
-  interrupted = 130,  ///< stopped by SIGINT or SIGTERM; no file was written
+  failure = 1,      ///< the command ran and found something wrong: a mismatch, a missed target
+  usage = 2,        ///< bad option, value or command
+  environment = 3,  ///< a file, device, package or memory that is not there, or fails
+  data = 4,         ///< a file whose content is malformed, or of another kind
+  not_served = 5,   ///< `run --require`: no call of ODE arrived, or none could be served
 };
 
 class CommandError : public std::runtime_error {

@@ -54,17 +54,15 @@ bench::PairsPlan table_plan(const ExperimentPlan& plan) {
 }
 
 bench::PairsOutcome measure(const bench::PairsPlan& plan, const Part& part,
-                            const bench::ShareDone& share_done,
-                            const bench::Interrupted& interrupted) {
+                            const bench::ShareDone& share_done) {
   const auto share = [&](double done) { share_done(part.begin + done * (part.end - part.begin)); };
-  return value_or_throw(bench::run_pairs(plan, share, interrupted));
+  return value_or_throw(bench::run_pairs(plan, share));
 }
 
-std::vector<bench::SelftestCheck> check_contacts(const ExperimentPlan& plan,
-                                                 const bench::Interrupted& interrupted) {
+std::vector<bench::SelftestCheck> check_contacts(const ExperimentPlan& plan) {
   const std::size_t count = plan.quick ? kQuickPairs : bench::kMostRecordedPairs;
   const bench::Recording recording =
-      value_or_throw(bench::record({}, bench::PairType::mixed, count, interrupted));
+      value_or_throw(bench::record({}, bench::PairType::mixed, count));
   std::vector<bench::SelftestCheck> checks;
   for (const bench::NamedDevice& device : plan.table_devices) {
     const Capabilities& capabilities = device.device->capabilities();
@@ -86,17 +84,12 @@ bool Experiment::contacts_are_right() const {
                      [](const bench::SelftestCheck& check) { return check.passed(); });
 }
 
-Experiment run_experiment(const ExperimentPlan& plan, const bench::ShareDone& share_done,
-                          const bench::Interrupted& interrupted) {
+Experiment run_experiment(const ExperimentPlan& plan, const bench::ShareDone& share_done) {
   Experiment experiment;
-  experiment.figure6 =
-      measure(figure_plan(plan, figure6_counts(), 8), kFigure6Part, share_done, interrupted);
-  experiment.figure7 =
-      measure(figure_plan(plan, figure7_counts(), 16), kFigure7Part, share_done, interrupted);
-  experiment.table = measure(table_plan(plan), kTablePart, share_done, interrupted);
-  if (!bench::must_stop(interrupted)) {
-    experiment.checks = check_contacts(plan, interrupted);
-  }
+  experiment.figure6 = measure(figure_plan(plan, figure6_counts(), 8), kFigure6Part, share_done);
+  experiment.figure7 = measure(figure_plan(plan, figure7_counts(), 16), kFigure7Part, share_done);
+  experiment.table = measure(table_plan(plan), kTablePart, share_done);
+  experiment.checks = check_contacts(plan);
   return experiment;
 }
 

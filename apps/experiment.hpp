@@ -28,9 +28,8 @@ struct Experiment {
   [[nodiscard]] bool contacts_are_right() const;
 };
 
-/// Takes at most about 50 s on two cores. When interrupted, returns what there is.
+/// Takes at most about 50 s on two cores.
 /// Throws CommandError.
-Experiment run_experiment(const ExperimentPlan& plan, const bench::ShareDone& share_done,
-                          const bench::Interrupted& interrupted);
+Experiment run_experiment(const ExperimentPlan& plan, const bench::ShareDone& share_done);
 
 }  // namespace harpoon::app

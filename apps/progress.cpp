@@ -4,8 +4,9 @@
 
 #include <algorithm>
 #include <cmath>
-#include <cstdio>
 
+#include "apps/output.hpp"
+#include "apps/signals.hpp"
 #include "bench/timer.hpp"
 
 namespace harpoon::app {
@@ -39,7 +40,8 @@ Progress::Progress(const Terminal& terminal)
 
 Progress::~Progress() {
   if (enabled_ && drawn_s_ >= 0) {
-    fmt::print(stderr, "{}", kWipe);
+    remark(kWipe);
+    note_progress(false);
   }
 }
 
@@ -49,8 +51,8 @@ void Progress::show(double share, const std::string& title) {
     return;
   }
   drawn_s_ = elapsed_s;
-  fmt::print(stderr, "{}{}", kWipe, progress_line(share, elapsed_s, title));
-  std::fflush(stderr);
+  note_progress(true);
+  note("{}{}", kWipe, progress_line(share, elapsed_s, title));
 }
 
 }  // namespace harpoon::app

@@ -4,6 +4,7 @@
 // profile.cpp, or numbers given by the caller; nothing else knows a profile by name.
 
 #include <cstdint>
+#include <optional>
 #include <span>
 #include <string_view>
 
@@ -32,7 +33,11 @@ std::span<const LinkProfile> link_profiles() noexcept;
 Result<LinkProfile> find_profile(std::string_view name);
 
 /// A profile with some numbers replaced: "harp,latency_ns=500,gbps=12.8". Keys: clock_mhz, gbps,
-/// shared (0 or 1), latency_ns, write_latency_ns, in_flight. Errors: invalid_argument.
+/// shared (0 or 1), latency_ns, write_latency_ns, in_flight. Errors: invalid_argument (names the
+/// range, or the known keys).
 Result<LinkProfile> parse_profile(std::string_view text);
+
+/// An error (invalid_argument) for numbers that no parsed profile has.
+std::optional<Error> check_profile(const LinkProfile& profile);
 
 }  // namespace harpoon::sim

@@ -6,7 +6,6 @@
 #include "Vharpoon_afu.h"
 #include "coverage.hpp"
 #include "verilated.h"
-#include "waveform.hpp"
 
 namespace harpoon::sim {
 namespace {
@@ -116,8 +115,9 @@ SimulatedLink::~SimulatedLink() {
 }
 
 Result<std::unique_ptr<SimulatedLink>> SimulatedLink::create(const SimulationOptions& options) {
-  auto state = std::make_unique<State>(options);
   const LinkProfile& profile = options.profile;
+  if (std::optional<Error> wrong = check_profile(profile)) return std::move(*wrong);
+  auto state = std::make_unique<State>(options);
   state->register_write_cycles = cycles(profile.register_write_ns, profile.clock_mhz);
   state->register_read_cycles = cycles(profile.register_read_ns, profile.clock_mhz);
   state->info = {std::string(profile.name),
@@ -126,9 +126,9 @@ Result<std::unique_ptr<SimulatedLink>> SimulatedLink::create(const SimulationOpt
                  profile.gigabytes_per_s * 1000 / profile.clock_mhz,
                  profile.shared_bandwidth,
                  profile.lines_in_flight,
+                 profile.read_latency_ns + profile.write_latency_ns,
                  true};
-  if (!options.waveform.empty() && !state->waveform.open(options.waveform, profile.clock_mhz))
-    return Error{Errc::invalid_argument, "cannot write the waveform file " + options.waveform, 0};
+  if (options.waveform) state->waveform.open(options.waveform, profile.clock_mhz);
   state->hold_reset();
   return std::unique_ptr<SimulatedLink>(new SimulatedLink(std::move(state)));
 }

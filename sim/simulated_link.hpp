@@ -6,12 +6,12 @@
 
 #include <cstdint>
 #include <memory>
-#include <string>
 
 #include "device/afu/link.hpp"
 #include "faults.hpp"
 #include "link_model.hpp"
 #include "profile.hpp"
+#include "waveform.hpp"
 
 namespace harpoon::sim {
 
@@ -19,13 +19,13 @@ struct SimulationOptions {
   LinkProfile profile;
   LinkNoise noise = {};
   std::uint64_t memory_seed = 1;  ///< scatters the physical pages
-  std::string waveform = {};      ///< file for a VCD of the AFU's ports; empty: none
+  WaveformSink waveform = {};     ///< takes a VCD of the AFU's ports; empty: none
 };
 
 /// An AFU in simulation. Single-threaded, like every AfuLink.
 class SimulatedLink final : public afu::AfuLink {
  public:
-  /// Starts in reset state. Errors: invalid_argument (waveform file cannot be written).
+  /// Starts in reset state. Errors: invalid_argument (a number of the profile).
   static Result<std::unique_ptr<SimulatedLink>> create(const SimulationOptions& options);
   ~SimulatedLink() override;
 

@@ -1,7 +1,10 @@
 #include "waveform.hpp"
 
-#include <cinttypes>
+#include <fmt/format.h>
+
+#include <array>
 #include <cmath>
+#include <utility>
 
 #include "Vharpoon_afu.h"
 
@@ -61,32 +64,35 @@ char symbol(std::size_t index) {
 
 }  // namespace
 
-bool Waveform::open(const std::string& path, double clock_mhz) {
-  file_.reset(std::fopen(path.c_str(), "w"));
-  if (!file_) return false;
+Waveform::~Waveform() {
+  if (sink_) sink_(text_);
+}
+
+void Waveform::open(WaveformSink sink, double clock_mhz) {
+  sink_ = std::move(sink);
   period_ps_ = static_cast<std::uint64_t>(std::llround(1e6 / clock_mhz));
   last_.assign(kSignals.size(), 0);
-  std::fputs("$timescale 1ps $end\n$scope module harpoon_afu $end\n", file_.get());
+  text_ = "$timescale 1ps $end\n$scope module harpoon_afu $end\n";
   for (std::size_t i = 0; i < kSignals.size(); ++i) {
-    std::fprintf(file_.get(), "$var wire %u %c %s $end\n", kSignals[i].width, symbol(i),
-                 kSignals[i].name);
+    text_ +=
+        fmt::format("$var wire {} {} {} $end\n", kSignals[i].width, symbol(i), kSignals[i].name);
   }
-  std::fputs("$upscope $end\n$enddefinitions $end\n", file_.get());
-  return true;
+  text_ += "$upscope $end\n$enddefinitions $end\n";
 }
 
 void Waveform::sample(std::uint64_t cycle, const Vharpoon_afu& top) {
-  std::fprintf(file_.get(), "#%" PRIu64 "\n", cycle * period_ps_);
+  constexpr std::size_t kPieceBytes = std::size_t{1} << 16;
+  text_ += fmt::format("#{}\n", cycle * period_ps_);
   for (std::size_t i = 0; i < kSignals.size(); ++i) {
     const std::uint64_t value = kSignals[i].value(top);
     if (!first_ && value == last_[i]) continue;
     last_[i] = value;
-    std::array<char, 65> bits{};
-    for (unsigned b = 0; b < kSignals[i].width; ++b)
-      bits[b] = static_cast<char>('0' + ((value >> (kSignals[i].width - 1 - b)) & 1));
-    std::fprintf(file_.get(), "b%s %c\n", bits.data(), symbol(i));
+    text_ += fmt::format("b{:0{}b} {}\n", value, kSignals[i].width, symbol(i));
   }
   first_ = false;
+  if (text_.size() < kPieceBytes) return;
+  sink_(text_);
+  text_.clear();
 }
 
 }  // namespace harpoon::sim

@@ -46,7 +46,7 @@ Result<std::vector<ScalingPoint>> run_scaling(const ScalingPlan& plan,
       };
       auto outcome = run_scene(point, part, interrupted);
       if (!outcome) return outcome.error();
-      if (interrupted()) return points;
+      if (must_stop(interrupted)) return points;
       points.push_back({point, *std::move(outcome)});
       done += static_cast<double>(bodies);
     }

@@ -123,7 +123,7 @@ Result<SceneOutcome> run_scene(const ScenePlan& plan, const std::function<void(d
   for (unsigned frame = 0; frame < frames; ++frame) {
     world.at(frame, spheres);
     for (std::size_t e = 0; e < engines.size(); ++e) {
-      if (interrupted()) return outcome;
+      if (must_stop(interrupted)) return outcome;
       auto done = engines[e]->frame(spheres);
       if (!done) return done.error();
       records[e].last = *done;

@@ -49,15 +49,15 @@ TEST(Command, HelpIsEverywhereWithExamples) {
 TEST(Command, WrongUsageIsExitCode2AndNamesWhatIsWrong) {
   const std::vector<std::pair<std::vector<std::string>, std::string>> cases = {
       {{}, "subcommand is required"},
-      {{"fly"}, "'fly' is no command"},
-      {{"demo", "--fast"}, "'--fast' is no command or option of harpoon demo"},
-      {{"bench", "pairs", "--type", "soft"}, "'soft' is not one of real, fake, grazing, mixed"},
-      {{"bench", "pairs", "--count", "0"}, "--count: '0' is not a whole number from 1"},
-      {{"bench", "pairs", "--device", "abacus"}, "there is no device abacus"},
+      {{"fly"}, "\"fly\" is no command"},
+      {{"demo", "--fast"}, "\"--fast\" is no command or option of harpoon demo"},
+      {{"bench", "pairs", "--type", "soft"}, "\"soft\" is not one of real, fake, grazing, mixed"},
+      {{"bench", "pairs", "--count", "0"}, "--count: \"0\" is not a whole number from 1"},
+      {{"bench", "pairs", "--device", "abacus"}, "there is no device \"abacus\""},
       {{"bench", "pairs", "--figure", "6", "--count", "10"}, "excludes"},
       {{"diamond", "--hmax", "46"}, "--hmax"},
-      {{"diamond", "--dsph", "-1"}, "dsph is -1"},
-      {{"completion", "tcsh"}, "'tcsh' is not one of bash, zsh, fish"}};
+      {{"diamond", "--dsph", "-1"}, "--dsph: \"-1\" is not a number from 0"},
+      {{"completion", "tcsh"}, "\"tcsh\" is not one of bash, zsh, fish"}};
   for (const auto& [arguments, message] : cases) {
     const Finished f = run_piped(arguments);
     EXPECT_EQ(f.exit_code, 2) << message;
@@ -65,6 +65,60 @@ TEST(Command, WrongUsageIsExitCode2AndNamesWhatIsWrong) {
     EXPECT_TRUE(contains(f.err, message)) << f.err;
     EXPECT_EQ(f.out, "") << message;
   }
+}
+
+// Whatever else is wrong, or asked for, the word that nobody knows is to blame; and only that.
+TEST(Command, TheRightWordIsBlamed) {
+  const std::vector<std::pair<std::vector<std::string>, std::string>> cases = {
+      {{"bench", "scen", "--help"},
+       "\"scen\" is no command or option of harpoon bench. Did you mean scene?"},
+      {{"bench", "--help", "scen"}, "\"scen\" is no command or option of harpoon bench"},
+      {{"demoo", "--version"}, "\"demoo\" is no command or option of harpoon. Did you mean demo?"},
+      {{"detect", "--frmat", "csv", "x"},
+       "\"--frmat\" is no command or option of harpoon detect. Did you mean --format?"},
+      {{"bench", "pairs", "--cuont", "1"}, "Did you mean --count?"},
+      {{"help", "bench", "pears"},
+       "\"pears\" is no command or option of harpoon bench. Did you mean pairs?"},
+      {{"run", "--policy", "foo", "--", "true"},
+       "--policy: \"foo\" is not one of compat, fixed, strict"},
+      {{"run", "--polcy", "compat", "--", "true"},
+       "\"--polcy\" is no command or option of harpoon run. Did you mean --policy?"},
+      {{"run", "--"}, "No command to run"},
+      {{"detect", "--threads", "-1", "x"},
+       "--threads: \"-1\" is not a whole number from 0 to 1024"},
+      {{"detect"}, "file is required"}};
+  for (const auto& [arguments, message] : cases) {
+    const Finished f = run_piped(arguments);
+    EXPECT_EQ(f.exit_code, 2) << message;
+    EXPECT_TRUE(contains(f.err, message)) << f.err;
+    EXPECT_EQ(f.out, "") << message;
+  }
+  EXPECT_FALSE(contains(run_piped({"fly"}).err, "Did you mean")) << "nothing is near";
+}
+
+TEST(Command, HelpAndVersionHaveOtherNames) {
+  EXPECT_EQ(run_piped({"-V"}).out, run_piped({"--version"}).out);
+  EXPECT_EQ(run_piped({"help"}).out, run_piped({"--help"}).out);
+  EXPECT_EQ(run_piped({"help", "bench"}).out, run_piped({"bench", "--help"}).out);
+  EXPECT_EQ(run_piped({"help", "bench", "pairs"}).out, run_piped({"bench", "pairs", "--help"}).out);
+}
+
+TEST(Command, TooLittleMemoryIsBlamedOnWhatTakesIt) {
+#ifdef __SANITIZE_ADDRESS__
+  GTEST_SKIP() << "the sanitizer itself needs more addresses than are left";
+#endif
+  const ScratchFolder folder;
+  const std::string file = (folder / "same.csv").string();
+  std::string text = "x,y,z,r\n";
+  for (int k = 0; k < 30000; ++k) text += "0,0,0,1\n";
+  write_file(file, text);
+  // All pairs of 30,000 bodies take 32 GB.
+  const Finished contacts =
+      run_script("ulimit -v 4000000; exec \"$HARPOON\" detect '" + file + "' --threads 1");
+  EXPECT_EQ(contacts.exit_code, 3);
+  EXPECT_TRUE(contains(contacts.err, "contacts")) << contacts.err;
+  EXPECT_FALSE(contains(contacts.err, "--count")) << contacts.err;
+  EXPECT_EQ(lines(contacts.err), 1U) << contacts.err;
 }
 
 TEST(Command, WhatCannotBeWrittenIsExitCode3BeforeAnyWork) {
@@ -159,6 +213,24 @@ TEST_F(AfuCommand, WritesAWaveformAndNamesABadProfile) {
     const Finished bad = run_piped(arguments);
     EXPECT_EQ(bad.exit_code, 2) << bad.err;
     EXPECT_TRUE(contains(bad.err, "speed=9")) << bad.err;
+  }
+}
+
+TEST_F(AfuCommand, ASlowLinkIsWaitedForAndAnAbsurdOneRefused) {
+  const Finished slow = run_piped({"afu", "--pairs", "333", "--profile", "harp,latency_ns=5000"});
+  EXPECT_EQ(slow.exit_code, 0) << slow.err;
+  for (const char* absurd :
+       {"clock_mhz=1e9", "clock_mhz=200000000", "clock_mhz=inf", "latency_ns=nan",
+        "latency_ns=1e12", "shared=2", "shared=0.5", "in_flight=2.5"}) {
+    for (const auto& command :
+         {std::vector<std::string>{"afu", "--pairs", "20"}, {"bench", "pairs"}}) {
+      std::vector<std::string> arguments = command;
+      arguments.insert(arguments.end(), {"--profile", std::string("harp,") + absurd});
+      const Finished f = run_piped(arguments);
+      EXPECT_EQ(f.exit_code, 2) << absurd;
+      EXPECT_TRUE(contains(f.err, " from ")) << f.err;
+      EXPECT_TRUE(contains(f.err, "write_latency_ns")) << f.err;
+    }
   }
 }
 

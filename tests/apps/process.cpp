@@ -10,8 +10,8 @@
 namespace harpoon::app {
 namespace {
 
-[[noreturn]] void become_command(const std::vector<std::string>& arguments,
-                                 const Environment& environment) {
+[[noreturn]] void become(const char* program, const std::vector<std::string>& arguments,
+                         const Environment& environment) {
   for (const std::string& entry : environment) {
     const std::size_t equals = entry.find('=');
     if (equals == std::string::npos) {
@@ -20,7 +20,7 @@ namespace {
       setenv(entry.substr(0, equals).c_str(), entry.substr(equals + 1).c_str(), 1);
     }
   }
-  std::vector<char*> argv = {const_cast<char*>(HARPOON_COMMAND)};
+  std::vector<char*> argv = {const_cast<char*>(program)};
   for (const std::string& argument : arguments) {
     argv.push_back(const_cast<char*>(argument.c_str()));
   }
@@ -46,9 +46,8 @@ bool read_some(int fd, std::string& text) {
   return true;
 }
 
-}  // namespace
-
-Finished run_piped(const std::vector<std::string>& arguments, const Environment& environment) {
+Finished run_program(const char* program, const std::vector<std::string>& arguments,
+                     const Environment& environment) {
   int out[2];
   int err[2];
   if (pipe(out) != 0 || pipe(err) != 0) {
@@ -61,7 +60,7 @@ Finished run_piped(const std::vector<std::string>& arguments, const Environment&
     for (const int fd : {out[0], out[1], err[0], err[1]}) {
       close(fd);
     }
-    become_command(arguments, environment);
+    become(program, arguments, environment);
   }
   close(out[1]);
   close(err[1]);
@@ -80,12 +79,26 @@ Finished run_piped(const std::vector<std::string>& arguments, const Environment&
   return finished;
 }
 
+}  // namespace
+
+void become_command(const std::vector<std::string>& arguments) {
+  become(HARPOON_COMMAND, arguments, {});
+}
+
+Finished run_piped(const std::vector<std::string>& arguments, const Environment& environment) {
+  return run_program(HARPOON_COMMAND, arguments, environment);
+}
+
+Finished run_script(const std::string& script) {
+  return run_program("/bin/sh", {"-c", script}, {std::string("HARPOON=") + HARPOON_COMMAND});
+}
+
 Finished run_on_terminal(const std::vector<std::string>& arguments, const Environment& environment,
                          const std::function<void(const std::string&, int)>& on_output) {
   int terminal = -1;
   const pid_t pid = forkpty(&terminal, nullptr, nullptr, nullptr);
   if (pid == 0) {
-    become_command(arguments, environment);
+    become(HARPOON_COMMAND, arguments, environment);
   }
   Finished finished;
   while (read_some(terminal, finished.out)) {

@@ -79,7 +79,7 @@ TEST(DetectCommand, MalformedInputNamesFileLineAndColumn) {
   for (const auto& [name, place] : {std::pair{"bad.csv", ":3:3: "}, {"bad.json", ":2:"}}) {
     const std::string file = (folder / name).string();
     const Finished f = run_piped({"detect", file});
-    EXPECT_EQ(f.exit_code, 3) << name;
+    EXPECT_EQ(f.exit_code, 4) << name;
     EXPECT_TRUE(contains(f.err, file + place)) << f.err;
     EXPECT_EQ(f.out, "");
   }

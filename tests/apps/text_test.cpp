@@ -81,9 +81,10 @@ TEST(Files, AreWrittenWholeAndLeaveNothingElse) {
   write_file(folder / "a.txt", "two\n");
   EXPECT_EQ(read_file(folder / "a.txt"), "two\n");
   EXPECT_THROW(write_file(folder / "a.txt",
-                          [](std::ostream& out) {
-                            out << "half";
-                            throw CommandError(ExitCode::interrupted, "stop");
+                          [](Output& out) {
+                            out.write("half");
+                            out.flush();
+                            throw CommandError(ExitCode::failure, "stop");
                           }),
                CommandError);
   EXPECT_EQ(read_file(folder / "a.txt"), "two\n");
@@ -144,7 +145,7 @@ TEST(Options, ChoicesAndWholeNumbersNameTheBadValue) {
     }
     return "";
   };
-  EXPECT_NE(message({"odd", "--type"}).find("'odd' is not one of real, fake"), std::string::npos);
+  EXPECT_NE(message({"odd", "--type"}).find("\"odd\" is not one of real, fake"), std::string::npos);
   for (const char* bad : {"0", "101", "1.5", "-1", "ten", "18446744073709551616", ""}) {
     EXPECT_NE(message({bad, "--count"}).find("is not a whole number from 1 to 100"),
               std::string::npos)
@@ -155,8 +156,8 @@ TEST(Options, ChoicesAndWholeNumbersNameTheBadValue) {
 TEST(DeviceCatalog, HasCpuFirstAndOpensItByNameAndThreads) {
   const std::vector<CatalogEntry> entries = device_catalog();
   ASSERT_FALSE(entries.empty());
-  EXPECT_EQ(entries[0].info.name, "cpu");
-  EXPECT_TRUE(entries[0].info.available);
+  EXPECT_EQ(entries[0].name, "cpu");
+  EXPECT_TRUE(entries[0].look().available);
   const auto opened = open_devices("cpu", {2, 1});
   ASSERT_EQ(opened.size(), 2U);
   EXPECT_EQ(opened[0].threads, 1U);

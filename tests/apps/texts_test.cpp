@@ -4,10 +4,15 @@
 
 #include <CLI/CLI.hpp>
 #include <algorithm>
+#include <cctype>
+#include <csignal>
 #include <cstdlib>
+#include <set>
+#include <sstream>
 
 #include "apps/command.hpp"
 #include "apps/completion.hpp"
+#include "apps/exit_code.hpp"
 #include "apps/files.hpp"
 #include "apps/manual.hpp"
 #include "apps/process.hpp"
@@ -74,7 +79,38 @@ TEST(Manual, NamesEveryCommandAndOption) {
     }
   }
   EXPECT_NE(page.find("NO_COLOR"), std::string::npos);
-  EXPECT_NE(page.find("130"), std::string::npos);
+}
+
+/// Codes of a table or list: numbers at the beginning of lines.
+std::set<int> codes_in(const std::string& text) {
+  std::set<int> codes;
+  std::istringstream lines(text);
+  for (std::string line; std::getline(lines, line);) {
+    const std::size_t first = line.find_first_not_of("| ");
+    if (first == std::string::npos || first > 2) continue;
+    for (const char* at = line.c_str() + first; std::isdigit(*at) != 0;) {
+      codes.insert(static_cast<int>(std::strtol(at, const_cast<char**>(&at), 10)));
+      if (*at == ',') at += 2;
+    }
+  }
+  return codes;
+}
+
+TEST(ExitCodes, AreTheSameInHelpManualDocumentAndCode) {
+  const Declared declared;
+  const std::string& help = declared.info.footer;
+  const std::string list = help.substr(0, help.find("Environment:"));
+  const std::string document = read_file(HARPOON_COMMAND_DOCUMENT);
+  const std::size_t table = document.find("## Exit codes");
+  const std::set<int> codes = codes_in(list);
+  EXPECT_EQ(codes, codes_in(document.substr(table, document.find("\n## ", table + 1) - table)));
+  const std::string page = manual_page(declared.info, "1.2.3");
+  EXPECT_EQ(codes, codes_in(page.substr(page.find("Exit codes:"))));
+  for (const ExitCode code :
+       {ExitCode::ok, ExitCode::failure, ExitCode::usage, ExitCode::environment, ExitCode::data}) {
+    EXPECT_TRUE(codes.contains(static_cast<int>(code)));
+  }
+  for (const int signal : {SIGHUP, SIGINT, SIGTERM}) EXPECT_TRUE(codes.contains(128 + signal));
 }
 
 TEST(Manual, EscapesWhatRoffWouldTake) {
@@ -100,12 +136,68 @@ TEST(Completion, BashOffersCommandsOptionsChoicesAndFiles) {
   write_file(folder / "harpoon.bash", bash_completion(declared.info));
   write_file(folder / "data.json", "");
   EXPECT_EQ(offered(folder, "harpoon de"), "demo detect devices\n");
+  EXPECT_EQ(offered(folder, "harpoon help de"), "demo detect devices\n");
   EXPECT_EQ(offered(folder, "harpoon bench pa"), "pairs\n");
   EXPECT_EQ(offered(folder, "harpoon bench pairs --fo"), "--format\n");
   EXPECT_EQ(offered(folder, "harpoon bench pairs --type g"), "grazing\n");
   EXPECT_EQ(offered(folder, "harpoon completion \"\""), "-h --help bash zsh fish\n");
   EXPECT_EQ(offered(folder, "harpoon bench pairs --json " + (folder / "da").string()),
             (folder / "data.json").string() + "\n");
+}
+
+TEST(Completion, BashOffersFilesForEveryFileAndCommandsForACommand) {
+  const Declared declared;
+  const ScratchFolder folder;
+  write_file(folder / "harpoon.bash", bash_completion(declared.info));
+  write_file(folder / "data.json", "");
+  const std::string begun = (folder / "da").string();
+  int files = 0;
+  for (const CommandInfo* command : flattened(declared.info)) {
+    for (const OptionInfo& option : command->options) {
+      if (option.type != "FILE") continue;
+      const std::string before = option.is_positional ? "" : " " + option.names.back();
+      EXPECT_EQ(offered(folder, command->path + before + " " + begun),
+                (folder / "data.json").string() + "\n")
+          << command->path << before;
+      ++files;
+    }
+  }
+  EXPECT_GE(files, 9);
+  // As often as there are folders with it.
+  EXPECT_EQ(offered(folder, "harpoon run mkfif").substr(0, 6), "mkfifo");
+  EXPECT_EQ(offered(folder, "harpoon run -- mkfif").substr(0, 6), "mkfifo");
+  EXPECT_EQ(offered(folder, "harpoon run " + begun), (folder / "data.json").string() + "\n");
+}
+
+TEST(Completion, FishOffersFilesForEveryFileAndCommandsForACommand) {
+  if (!has_program("fish")) GTEST_SKIP() << "fish is not installed";
+  const Declared declared;
+  const ScratchFolder folder;
+  write_file(folder / "harpoon.fish", fish_completion(declared.info));
+  write_file(folder / "data.json", "");
+  std::string lines = "harpoon run mkfif\n";
+  std::size_t files = 0;
+  for (const CommandInfo* command : flattened(declared.info)) {
+    for (const OptionInfo& option : command->options) {
+      if (option.type != "FILE") continue;
+      const std::string before = option.is_positional ? "" : " " + option.names.back();
+      lines += command->path + before + " da\n";
+      ++files;
+    }
+  }
+  write_file(folder / "lines", lines);
+  const std::string script = "cd " + folder.string() +
+                             "; source harpoon.fish; while read line; complete -C $line; end"
+                             " < lines > offered 2>&1";
+  EXPECT_EQ(std::system(("fish --no-config -c '" + script + "'").c_str()), 0);
+  const std::string offered_lines = read_file(folder / "offered");
+  EXPECT_EQ(offered_lines.substr(0, 6), "mkfifo") << offered_lines;
+  std::size_t found = 0;
+  for (std::size_t at = 0; (at = offered_lines.find("data.json\n", at)) != std::string::npos;
+       ++at) {
+    ++found;
+  }
+  EXPECT_EQ(found, files) << offered_lines;
 }
 
 TEST(Completion, EveryShellsScriptNamesEveryOptionAndParses) {

@@ -96,6 +96,12 @@ CASES = {
         ("a path above the tree", {"docs/a.md": f"see {CLIMB}\n"}, "docs/a.md",
          {"docs/a/b.md": f"see {CLIMB}\n"}),
     ],
+    text.streams: [
+        ("the command prints through its one writer", {"apps/a.cpp": 'fmt::print("a");\n'},
+         "apps/a.cpp", {"apps/a.cpp": 'print("a");\n', "apps/output.cpp": 'fmt::print("a");\n'}),
+        ("the command opens files in one place", {"apps/a.cpp": "std::ifstream file(name);\n"},
+         "apps/a.cpp", {"bench/a.cpp": "std::ifstream file(name);\n"}),
+    ],
     text.leftovers: [
         ("work left for later", {"src/base/a.cpp": f"// {MARKER}: more\n"}, "src/base/a.cpp",
          {"src/base/a.cpp": "// Everything is done here; nothing is left.\n"}),

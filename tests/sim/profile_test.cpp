@@ -1,6 +1,11 @@
 #include "sim/profile.hpp"
 
+#include <fmt/format.h>
 #include <gtest/gtest.h>
+
+#include <cmath>
+#include <string>
+#include <vector>
 
 namespace harpoon::sim {
 namespace {
@@ -31,12 +36,64 @@ TEST(LinkProfile, NumbersCanBeReplaced) {
 
 TEST(LinkProfile, WhatIsWrongIsNamed) {
   EXPECT_NE(parse_profile("harpy").error().message.find("pcie3x16"), std::string::npos);
-  for (const char* bad : {"harp,gbps", "harp,gbps=x", "harp,gbps=0", "harp,speed=1",
-                          "harp,in_flight=65", "harp,gbps=1y", "harp,latency_ns=-1"}) {
+  for (const char* bad : {"harp,gbps", "harp,speed=1", "harp,=1", "harp,,", "harp,gbps = 1"}) {
     const auto profile = parse_profile(bad);
     ASSERT_FALSE(profile.ok()) << bad;
     EXPECT_EQ(profile.error().code, Errc::invalid_argument);
+    EXPECT_NE(profile.error().message.find("in_flight"), std::string::npos)
+        << profile.error().message;
   }
+}
+
+TEST(LinkProfile, EveryNumberHasARangeThatIsSaid) {
+  const struct {
+    const char* key;
+    double low, high;
+    bool is_whole;
+  } settings[] = {{"clock_mhz", 1, 2000, false},
+                  {"gbps", 0.1, 1000, false},
+                  {"shared", 0, 1, true},
+                  {"latency_ns", 0, 100000, false},
+                  {"write_latency_ns", 0, 100000, false},
+                  {"in_flight", 1, 64, true}};
+  for (const auto& setting : settings) {
+    const auto with = [&](const std::string& value) {
+      return parse_profile("harp," + std::string(setting.key) + "=" + value);
+    };
+    EXPECT_TRUE(with(fmt::format("{}", setting.low)).ok()) << setting.key;
+    EXPECT_TRUE(with(fmt::format("{}", setting.high)).ok()) << setting.key;
+    std::vector<std::string> bad = {"nan",
+                                    "inf",
+                                    "-inf",
+                                    "-1",
+                                    "1e300",
+                                    "9223372036854775808",
+                                    "",
+                                    "ten",
+                                    "1y",
+                                    " 1",
+                                    "0x10",
+                                    "-0.001",
+                                    fmt::format("{}", setting.high * 1.001)};
+    if (setting.is_whole) bad.push_back(fmt::format("{}", setting.low + 0.5));
+    for (const std::string& value : bad) {
+      const auto profile = with(value);
+      ASSERT_FALSE(profile.ok()) << setting.key << " " << value;
+      EXPECT_EQ(profile.error().code, Errc::invalid_argument);
+      const std::string range = fmt::format("from {} to {}", setting.low, setting.high);
+      EXPECT_NE(profile.error().message.find(range), std::string::npos) << profile.error().message;
+    }
+  }
+}
+
+TEST(LinkProfile, NumbersOfACallerHaveTheSameRanges) {
+  LinkProfile profile = *find_profile("harp");
+  EXPECT_FALSE(check_profile(profile).has_value());
+  profile.read_latency_ns = std::nan("");
+  EXPECT_TRUE(check_profile(profile).has_value());
+  profile = *find_profile("f2");
+  profile.lines_in_flight = 0;
+  EXPECT_TRUE(check_profile(profile).has_value());
 }
 
 }  // namespace

@@ -54,23 +54,27 @@ TEST(SimulatedLink, SeveralEndInAnyOrder) {
   }
 }
 
-TEST(SimulatedLink, WritesAWaveform) {
-  const std::string path = testing::TempDir() + "harpoon_waveform.vcd";
+TEST(SimulatedLink, GivesAWaveformPieceByPiece) {
+  std::string text;
   {
-    const auto rig = make_rig({profile("harp"), {}, 1, path});
+    const auto rig =
+        make_rig({profile("harp"), {}, 1, [&](std::string_view piece) { text += piece; }});
     const auto pairs = afu_test::any_pairs(1, 2);
     std::vector<Contact> contacts(2);
     ASSERT_TRUE(rig.device->run(PairBatch<float>{pairs, contacts}).ok());
   }
-  std::ifstream file(path);
-  std::string line, text;
-  while (std::getline(file, line)) text += line + "\n";
   EXPECT_NE(text.find("$enddefinitions"), std::string::npos);
   EXPECT_NE(text.find("araddr"), std::string::npos);
   EXPECT_NE(text.find("\n#40000\n"), std::string::npos)
       << "cycle 8 of 5 ns, the first after two resets";
-  std::filesystem::remove(path);
-  EXPECT_FALSE(SimulatedLink::create({profile("harp"), {}, 1, "/nowhere/at.all"}).ok());
+}
+
+TEST(SimulatedLink, RefusesALinkThatNoProfileDescribes) {
+  LinkProfile never = profile("harp");
+  never.gigabytes_per_s = 0;
+  const auto link = SimulatedLink::create({.profile = never});
+  ASSERT_FALSE(link.ok());
+  EXPECT_EQ(link.error().code, Errc::invalid_argument);
 }
 
 }  // namespace

@@ -13,7 +13,7 @@ from tools.lint import programs, structure, text
 from tools.lint.tree import Tree
 
 QUICK = (structure.edges, structure.naming, structure.picture, structure.twins, text.outside,
-         text.leftovers, text.clean, programs.formatting, programs.scripts)
+         text.leftovers, text.clean, text.streams, programs.formatting, programs.scripts)
 SLOW = (programs.verilog, programs.headers, programs.tidy)
 
 

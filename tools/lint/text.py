@@ -36,6 +36,22 @@ def outside(tree: Tree):
                 yield Violation(name, number, "outside", f"names {match[0]}")
 
 
+# What looks at every result of a read and a write, and nothing else does either.
+STREAMS = re.compile(r"\b(?:fmt::print|std::(?:cout|cerr|clog|printf|puts|fopen|\w*fstream))\b")
+READER_AND_WRITER = ("apps/files.cpp", "apps/output.cpp", "apps/output.hpp", "apps/signals.cpp")
+
+
+def streams(tree: Tree):
+    """The command reads and writes in one place, where failures are errors."""
+    for name in tree.files:
+        if not name.startswith("apps/") or not name.endswith(CPP) or name in READER_AND_WRITER:
+            continue
+        for number, line in tree.lines(name):
+            if match := STREAMS.search(line):
+                yield Violation(name, number, "streams",
+                                f"{match[0]}: print with apps/output.hpp, open with apps/files.hpp")
+
+
 MARKER = re.compile(r"\b(TO" r"DO|FIX" r"ME|X" r"XX|HA" r"CK)\b")
 C_COMMENT = re.compile(r"^\s*//+\s?(.*)$")
 HASH_COMMENT = re.compile(r"^\s*#\s?(.*)$")

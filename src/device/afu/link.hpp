@@ -21,7 +21,10 @@ struct LinkInfo {
   double bytes_per_cycle = 0;     ///< payload that the link moves in a cycle, each way or in all
   bool shared_bandwidth = false;  ///< true: bytes_per_cycle is for both directions together
   std::uint32_t lines_in_flight = 0;  ///< most lines that may be outstanding each way
-  bool modelled = false;              ///< a simulation: its times are not measured
+  /// Of a read and an acknowledged write, one after the other; 0 where it is small beside the
+  /// limits on waiting. These follow it.
+  double round_trip_ns = 0;
+  bool modelled = false;  ///< a simulation: its times are not measured
 };
 
 /// Memory that host and device both see. For the host it is contiguous; the device sees it as 2 MB

@@ -2,6 +2,7 @@
 
 #include <fmt/format.h>
 
+#include <algorithm>
 #include <cmath>
 #include <utility>
 
@@ -102,15 +103,59 @@ Result<Workspace> Workspace::allocate(AfuLink& link, std::uint64_t bytes, std::u
 
 // ---- Service -----------------------------------------------------------------------------------
 
-Service::Service(AfuLink& link, const Timeouts& timeouts, SharedMemory system) noexcept
-    : link_(link), timeouts_(timeouts), system_(std::move(system)) {}
+std::optional<Error> check(const Timeouts& timeouts) {
+  const std::pair<const char*, double> limits[] = {{"identify_us", timeouts.identify_us},
+                                                   {"transaction_us", timeouts.transaction_us},
+                                                   {"per_pair_us", timeouts.per_pair_us}};
+  for (const auto& [name, limit] : limits) {
+    if (limit >= 0 && limit <= kMostTimeoutUs) continue;
+    return error(Errc::invalid_argument,
+                 fmt::format("the time limit {} is {} microseconds; give 0 to {}", name, limit,
+                             kMostTimeoutUs));
+  }
+  return std::nullopt;
+}
+
+Service::Service(AfuLink& link, const Timeouts& timeouts, const PucSettings& settings,
+                 SharedMemory system) noexcept
+    : link_(link), timeouts_(timeouts), settings_(settings), system_(std::move(system)) {}
 
 Service::~Service() {
   link_.release(system_);
 }
 
 std::uint64_t Service::cycles(double microseconds) const noexcept {
-  return static_cast<std::uint64_t>(std::ceil(microseconds * link_.info().clock_mhz));
+  constexpr double kMostCycles = 1e18;  // no clock comes there
+  return static_cast<std::uint64_t>(
+      std::min(kMostCycles, std::ceil(microseconds * link_.info().clock_mhz)));
+}
+
+std::uint32_t Service::lines_in_flight() const noexcept {
+  return settings_.lines_in_flight != 0 ? settings_.lines_in_flight : link_.info().lines_in_flight;
+}
+
+std::uint64_t Service::batches(std::uint64_t pairs) const noexcept {
+  return settings_.batch_barrier ? pairs / std::max(1U, identity_.scpus) + 1 : 0;
+}
+
+std::uint64_t Service::link_cycles(std::uint64_t lines, std::uint64_t batches) const noexcept {
+  // Contexts, page tables, control, DSM and status, one after the other.
+  constexpr std::uint64_t kExchanges = 8;
+  // What the AFU itself takes from end to end, however slow its clock: latencies, lines,
+  // and the emptying of its pipelines at a barrier.
+  constexpr std::uint64_t kPipelineCycles = 2048;
+  constexpr std::uint64_t kCyclesPerLine = 4;
+  constexpr std::uint64_t kCyclesPerBatch = 512;
+  constexpr double kUsPerNs = 1e-3;
+  constexpr double kSlack = 2;
+  const LinkInfo& info = link_.info();
+  const std::uint64_t trips = kExchanges + batches + lines / std::max(1U, lines_in_flight());
+  const double moving_cycles =
+      info.bytes_per_cycle > 0 ? static_cast<double>(lines) * c::kLineBytes / info.bytes_per_cycle
+                               : 0;
+  return kPipelineCycles + kCyclesPerLine * lines + kCyclesPerBatch * batches +
+         cycles(kSlack * (static_cast<double>(trips) * info.round_trip_ns * kUsPerNs +
+                          moving_cycles / info.clock_mhz));
 }
 
 std::uint64_t Service::physical(std::uint64_t offset) const noexcept {
@@ -132,20 +177,19 @@ Line Service::spl_dsm(std::uint32_t line) const noexcept {
 
 Result<std::unique_ptr<Service>> Service::open(AfuLink& link, const Timeouts& timeouts,
                                                const PucSettings& settings) {
+  if (std::optional<Error> wrong = check(timeouts)) return std::move(*wrong);
   Result<SharedMemory> system = link.allocate(c::kPageBytes);
   if (!system) return system.error();
-  std::unique_ptr<Service> service(new Service(link, timeouts, std::move(*system)));
+  std::unique_ptr<Service> service(new Service(link, timeouts, settings, std::move(*system)));
   link.reset();
-  if (std::optional<Error> failure = service->identify(settings)) return std::move(*failure);
+  if (std::optional<Error> failure = service->identify()) return std::move(*failure);
   return service;
 }
 
-std::optional<Error> Service::identify(const PucSettings& settings) {
-  const std::uint32_t limit =
-      settings.lines_in_flight != 0 ? settings.lines_in_flight : link_.info().lines_in_flight;
-  link_.write_register(c::kRegInFlight, limit);
-  link_.write_register(c::kRegPucMode, settings.batch_barrier ? c::kModeBatchBarrier : 0);
-  const std::uint64_t deadline = link_.now() + cycles(timeouts_.identify_us);
+std::optional<Error> Service::identify() {
+  link_.write_register(c::kRegInFlight, lines_in_flight());
+  link_.write_register(c::kRegPucMode, settings_.batch_barrier ? c::kModeBatchBarrier : 0);
+  const std::uint64_t deadline = link_.now() + cycles(timeouts_.identify_us) + link_cycles(0, 0);
   write_address(c::kRegSplDsmBase, physical(kSplDsmAt));
   while (spl_dsm(c::kSplDsmIdLine).words[0] != c::kSplId ||
          !spl_dsm(c::kSplDsmIdLine).check_matches()) {

@@ -19,12 +19,17 @@
 
 namespace harpoon::afu {
 
-/// Limits on every wait, in microseconds of device time.
+/// Limits on every wait, in microseconds of device time, each 0 to `kMostTimeoutUs`. What the link
+/// itself takes (round trips and bytes, as its LinkInfo tells) comes on top.
 struct Timeouts {
   double identify_us = 100;     ///< SPL_ID and AFU_ID after their DSM base was set
   double transaction_us = 200;  ///< start of a transaction to its end, plus `per_pair_us` a pair
   double per_pair_us = 0.2;
 };
+inline constexpr double kMostTimeoutUs = 1e9;
+
+/// An error (invalid_argument) for a limit that is negative, not a number or too long.
+std::optional<Error> check(const Timeouts& timeouts);
 
 /// What the AFU says of itself in its DSM.
 struct AfuIdentity {
@@ -67,7 +72,7 @@ class Service {
   static constexpr std::size_t kSlots = 2;  ///< workspaces that can be prepared at a time
 
   /// Cold reset, then SPL_ID and AFU_ID must appear in time. Errors: device_timeout,
-  /// device_fault (another AFU, corrupt lines), out_of_memory.
+  /// device_fault (another AFU, corrupt lines), out_of_memory, invalid_argument (a limit).
   static Result<std::unique_ptr<Service>> open(AfuLink& link, const Timeouts& timeouts,
                                                const PucSettings& settings);
   ~Service();
@@ -78,6 +83,12 @@ class Service {
   [[nodiscard]] const Timeouts& timeouts() const noexcept { return timeouts_; }
   [[nodiscard]] const AfuIdentity& identity() const noexcept { return identity_; }
   [[nodiscard]] std::uint64_t cycles(double microseconds) const noexcept;
+  /// Cycles in which link and AFU surely get through `lines` with `batches` barriers between them,
+  /// and what must be exchanged before and after.
+  [[nodiscard]] std::uint64_t link_cycles(std::uint64_t lines,
+                                          std::uint64_t batches) const noexcept;
+  /// Barriers of a transaction of so many pairs.
+  [[nodiscard]] std::uint64_t batches(std::uint64_t pairs) const noexcept;
 
   /// Writes SPL2_CNTXT and the page table of a slot for the first `bytes` of a workspace.
   void map(std::size_t slot, const Workspace& workspace, std::uint64_t bytes) noexcept;
@@ -92,13 +103,16 @@ class Service {
   [[nodiscard]] Error silence(std::string_view what);
 
  private:
-  Service(AfuLink& link, const Timeouts& timeouts, SharedMemory system) noexcept;
-  std::optional<Error> identify(const PucSettings& settings);
+  Service(AfuLink& link, const Timeouts& timeouts, const PucSettings& settings,
+          SharedMemory system) noexcept;
+  std::optional<Error> identify();
+  [[nodiscard]] std::uint32_t lines_in_flight() const noexcept;
   void write_address(std::uint32_t offset, std::uint64_t address);
   [[nodiscard]] std::uint64_t physical(std::uint64_t offset) const noexcept;
 
   AfuLink& link_;
   Timeouts timeouts_;
+  PucSettings settings_;
   SharedMemory system_;  // one page: DSMs, contexts, page tables
   AfuIdentity identity_;
 };

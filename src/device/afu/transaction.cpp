@@ -100,8 +100,11 @@ void Transaction::start(std::uint32_t sequence) {
   store_line(place, control);
   step(3, fmt::format("start signal, n_col = {}", layout_.pairs));
   const Timeouts& limits = service_.timeouts();
-  deadline_ = begin + service_.cycles(limits.transaction_us +
-                                      limits.per_pair_us * static_cast<double>(layout_.pairs));
+  deadline_ = begin +
+              service_.cycles(limits.transaction_us +
+                              limits.per_pair_us * static_cast<double>(layout_.pairs)) +
+              service_.link_cycles(lines(sphere_bytes_ + source_bytes_ + dest_bytes_),
+                                   service_.batches(layout_.pairs));
 }
 
 /// Polls until `ready` or a fault or the deadline.

@@ -130,6 +130,24 @@ TEST(AfuDevice, RefusesANullLinkAndAHugeWorkspace) {
   EXPECT_EQ(make_afu_device(std::move(*link), options).error().code, Errc::invalid_argument);
 }
 
+// A limit that suits one link ends every batch on another.
+TEST(AfuDevice, WaitsAsLongAsTheSlowestLinkTakes) {
+  for (const char* link : {"harp,latency_ns=5000", "harp,latency_ns=100000,write_latency_ns=100000",
+                           "harp,gbps=0.1", "harp,clock_mhz=1", "f2,in_flight=1,latency_ns=20000",
+                           "pcie3x16,clock_mhz=2000,gbps=0.1"}) {
+    for (const bool as_published : {false, true}) {
+      AfuOptions options;
+      if (as_published) options.puc = {4, true};
+      Rig rig = make_rig({*sim::parse_profile(link)}, options);
+      const auto pairs = afu_test::any_pairs(5, 333);
+      std::vector<Contact> contacts(333);
+      const auto outcome = rig.device->run(PairBatch<float>{pairs, contacts});
+      ASSERT_TRUE(outcome.ok()) << link << ": " << outcome.error().message;
+      EXPECT_EQ(afu_test::first_wrong(pairs, contacts), -1) << link;
+    }
+  }
+}
+
 TEST(AfuDevice, FallsBackToTheCpuWithNothingLost) {
   AfuOptions options = small_transactions(100);
   options.timeouts.transaction_us = 30;

@@ -45,7 +45,8 @@ bench::ResultSet to_results(const Context& context, const Experiment& experiment
           experiment.table.timer_overhead_ns,
           rows,
           {},
-          report_notes(experiment)};
+          report_notes(experiment),
+          experiment.load};
 }
 
 // The paths of what was written, the report first.
@@ -66,9 +67,15 @@ std::vector<std::filesystem::path> write_all(const std::filesystem::path& out,
 }
 
 void print_claims(const Context& context, const Experiment& experiment) {
+  const auto print_lines = [](const std::string& text, const char* indent) {
+    for (const std::string& line : broken_into_lines(text, kLineWidth - 2)) {
+      fmt::print("{}{}\n", indent, line);
+    }
+  };
   for (const Claim& claim : judge_claims(experiment)) {
-    fmt::print("{}\n  here: {} {}\n", "Paper: " + claim.paper, claim.ours,
-               coloured(context.terminal, Colour::bold, "[" + claim.verdict + "]"));
+    print_lines("Paper: " + claim.paper, "");
+    print_lines("here: " + claim.ours, "  ");
+    fmt::print("  {}\n", coloured(context.terminal, Colour::bold, "[" + claim.verdict + "]"));
   }
 }
 
@@ -100,7 +107,7 @@ void add_demo(CLI::App& root, Context& context) {
       ->type_name("DIR")
       ->capture_default_str();
   demo->add_flag("--quick", options->quick,
-                 "Few points and one round: to see that it works, not to measure");
+                 "Few points and few rounds: to see that it works, not to measure");
   demo->footer(
       "Takes up to a minute. Writes report.html (one offline file), results.json, results.csv,\n"
       "figure6.csv and figure7.csv.\n\nExamples:\n  harpoon demo\n  harpoon demo --out today");

@@ -16,11 +16,10 @@ namespace harpoon::bench {
 namespace {
 
 constexpr std::size_t kLine = 64;
-#if defined(__x86_64__)
-constexpr std::size_t kPage = 4096;
-#endif
 
 #if defined(__x86_64__)
+
+constexpr std::size_t kPage = 4096;
 
 void stream_lines_sse2(const std::byte* source, std::byte* target, std::size_t bytes) {
   for (std::size_t i = 0; i < bytes; i += sizeof(__m128i)) {
@@ -46,7 +45,7 @@ void copy_non_temporal(const std::byte* source, std::byte* target, std::size_t b
   for (std::size_t i = 0; i < body; i += kPage) {
     // Streaming stores look up the page they go to one after the other: a touch ahead of time takes
     // that out of the way. It never faults, so it may be past the end.
-    _mm_prefetch(reinterpret_cast<const char*>(target) + head + i + kPage, _MM_HINT_T0);
+    _mm_prefetch(reinterpret_cast<const char*>(address + head + i + kPage), _MM_HINT_T0);
     const auto stream = wide ? stream_lines_avx512 : stream_lines_sse2;
     stream(source + head + i, target + head + i, std::min(kPage, body - i));
   }

@@ -53,13 +53,7 @@ function result_row(result: Result, largest_speedup: number): HTMLTableRowElemen
   return h(
     "tr",
     { class: result.device === "ode" ? "baseline" : undefined },
-    h(
-      "th",
-      { scope: "row" },
-      name_of(result),
-      " ",
-      h("small", { class: kind }, kind),
-    ),
+    h("th", { scope: "row" }, name_of(result), " ", h("small", { class: kind }, kind)),
     h("td", { class: "number speedup" }, bar, `${three_digits(result.speedup_vs_ode)}×`),
     number(three_digits(result.ns_per_pair)),
     number(three_digits(result.ns_per_pair_min)),

@@ -109,7 +109,7 @@ void add_demo(CLI::App& root, Context& context) {
   demo->add_flag("--quick", options->quick,
                  "Few points and few rounds: to see that it works, not to measure");
   demo->footer(
-      "Takes up to a minute. Writes report.html (one offline file), results.json, results.csv,\n"
+      "Takes about a minute. Writes report.html (one offline file), results.json, results.csv,\n"
       "figure6.csv and figure7.csv.\n\nExamples:\n  harpoon demo\n  harpoon demo --out today");
   demo->callback(
       [&context, options] { context.run = [&context, options] { run(context, *options); }; });

@@ -31,7 +31,7 @@ struct Experiment {
   [[nodiscard]] bool contacts_are_right() const;
 };
 
-/// Takes at most about 50 s on two cores. When interrupted, returns what there is.
+/// Takes about 50 s on two idle cores. When interrupted, returns what there is.
 /// Throws CommandError.
 Experiment run_experiment(const ExperimentPlan& plan, const bench::ShareDone& share_done,
                           const bench::Interrupted& interrupted);

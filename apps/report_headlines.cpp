@@ -12,12 +12,9 @@ namespace {
 
 using Rows = std::vector<const bench::ResultRow*>;
 
-// 86.4, 1.06, 12345.
+// 12345, 864, 86.4, 1.06.
 std::string three_digits(double number) {
-  if (number >= 1000) {
-    return fmt::format("{:.0f}", number);
-  }
-  return fmt::format("{:.{}f}", number, number >= 100 ? 0 : number >= 10 ? 1 : 2);
+  return fmt::format("{:.{}f}", number, number >= 99.95 ? 0 : number >= 9.995 ? 1 : 2);
 }
 
 // "8.61" or, where that is not sure, "8.61 to 12.2".

@@ -28,7 +28,8 @@ namespace harpoon {
 inline constexpr std::uint64_t kMaxBatchPairs = std::uint64_t{1} << 31;
 
 /// One contact record per pair, in pair order. `contacts` must hold at least `pairs.size()` records
-/// (else Errc::capacity) and must not overlap `pairs`.
+/// (else Errc::capacity) and must not overlap `pairs`; both are aligned as their types are (else
+/// Errc::invalid_argument).
 template <class Real>
 struct PairBatch {
   std::span<const SpherePairOf<Real>> pairs;

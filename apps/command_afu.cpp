@@ -129,9 +129,10 @@ std::string describe_steps(const Terminal& terminal, const std::vector<AfuRun>& 
 
 std::string describe(const Terminal& terminal, const std::vector<AfuRun>& runs) {
   return describe_afu(runs.front().report) + describe_runs(terminal, runs) + "\n" +
-         describe_counters(terminal, runs) + "\n" + describe_steps(terminal, runs) +
-         "\nCycles, and ns made of them, are modelled. simulated/s is measured: pairs that the "
-         "simulation\nputs through in a second of this machine.\n";
+         describe_counters(terminal, runs) + "\n" + describe_steps(terminal, runs) + "\n" +
+         paragraph(
+             "Cycles, and ns made of them, are modelled. simulated/s is measured: pairs that "
+             "the simulation puts through in a second of this machine.");
 }
 
 Json link_json(const afu::LinkInfo& link) {

@@ -168,7 +168,7 @@ void check(const Context& context, const PairsOptions& options) {
   }();
   throw_if_interrupted();
   fmt::print("{}", describe_targets(context.terminal, targets));
-  fmt::print("{}\n", bench::describe_load(watch.look()));
+  fmt::print("{}", paragraph(bench::describe_load(watch.look())));
   const auto count = [&](bench::TargetVerdict verdict) {
     return std::count_if(targets.begin(), targets.end(),
                          [&](const bench::Target& t) { return t.verdict() == verdict; });
@@ -241,8 +241,10 @@ void add_details(CLI::App& pairs, PairsOptions& options) {
       ->type_name("N")
       ->capture_default_str();
   pairs.add_flag("--copy", options.copy, "Also measure the copy bandwidth of as many threads");
-  pairs.add_flag("--check", options.check,
-                 "Measure the promised figures of the cpu device instead; exit code 1 on a miss");
+  pairs.add_flag(
+      "--check", options.check,
+      "Measure the promised figures of the cpu device instead; exit code 1 on a miss, or "
+      "when the run is too noisy to say");
   pairs.add_option("--json", options.json, "Write the results as JSON; - for standard output")
       ->type_name("FILE");
   pairs.add_option("--csv", options.csv, "Append the results to a CSV file")->type_name("FILE");

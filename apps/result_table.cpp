@@ -56,14 +56,6 @@ Cell verdict_cell(bench::TargetVerdict verdict) {
   return "too noisy to say";
 }
 
-std::string in_lines(const std::string& text) {
-  std::string out;
-  for (const std::string& line : broken_into_lines(text, kLineWidth)) {
-    out += line + "\n";
-  }
-  return out;
-}
-
 }  // namespace
 
 std::string describe_results(const Terminal& terminal, const bench::ResultSet& results) {
@@ -93,15 +85,16 @@ std::string describe_results(const Terminal& terminal, const bench::ResultSet& r
         "Copy bandwidth, {} thread(s): {:.1f} GB/s (memcpy {:.1f}, non-temporal {:.1f})\n",
         copy.threads, copy.best_gb_per_s(), copy.memcpy_gb_per_s, copy.non_temporal_gb_per_s);
   }
-  text += in_lines(
+  text += paragraph(
       "ns/pair is the median over the rounds; x ODE and GB/s are those of the fastest batches, "
       "which "
       "other programs cannot move.");
-  text += in_lines(fmt::format("Reading the clock takes {:.1f} ns; it is taken out of ODE's times.",
-                               results.timer_overhead_ns));
-  text += in_lines(bench::describe_load(results.load));
+  text +=
+      paragraph(fmt::format("Reading the clock takes {:.1f} ns; it is taken out of ODE's times.",
+                            results.timer_overhead_ns));
+  text += paragraph(bench::describe_load(results.load));
   for (const std::string& note : results.notes) {
-    text += in_lines(note);
+    text += paragraph(note);
   }
   return text;
 }

@@ -113,6 +113,14 @@ std::vector<std::string> broken_into_lines(const std::string& text, std::size_t 
   return lines;
 }
 
+std::string paragraph(const std::string& text) {
+  std::string out;
+  for (const std::string& line : broken_into_lines(text, kLineWidth)) {
+    out += line + "\n";
+  }
+  return out;
+}
+
 std::string format_table(const Terminal& terminal, const std::vector<Column>& columns,
                          const std::vector<std::vector<Cell>>& rows) {
   const Layout layout(columns, rows);

@@ -38,4 +38,7 @@ std::string format_table(const Terminal& terminal, const std::vector<Column>& co
 /// The text in lines of at most `width`, broken at spaces, within words where one is longer.
 std::vector<std::string> broken_into_lines(const std::string& text, std::size_t width);
 
+/// A sentence below a table: the text in lines of kLineWidth, with a newline at the end.
+std::string paragraph(const std::string& text);
+
 }  // namespace harpoon::app

@@ -306,24 +306,30 @@ std::vector<Claim> judge_claims(const Experiment& experiment) {
 }
 
 std::vector<std::string> report_notes(const Experiment& experiment) {
-  std::vector<std::string> notes = {
+  std::vector<std::string> notes;
+  notes.emplace_back(
       "The paper prints 2000 milliseconds of set-up. It must be nanoseconds: the break-even at 250 "
-      "collisions is 250 x (102 - 86) ns = 4 us, two times 2000 ns.",
+      "collisions is 250 x (102 - 86) ns = 4 us, two times 2000 ns.");
+  notes.emplace_back(
       "The paper prints a speed-up of 14.5 %, for up to 1000 collisions; 102 to 86 ns per "
       "collision "
-      "is 15.7 % less time.",
-      "hMax counts the shells of spheres around the centre one: |i| + |j| + |k| <= hMax.",
+      "is 15.7 % less time.");
+  notes.emplace_back(
+      "hMax counts the shells of spheres around the centre one: |i| + |j| + |k| <= hMax.");
+  notes.emplace_back(
       "Points and times are medians over runs, taken in rounds in which all series take turns; low "
       "and high are the 10th and 90th percentiles. ODE as Figure 5 executes each collision 10 "
       "times "
-      "in the running world and adds the average; the clock's own time is taken out.",
+      "in the running world and adds the average; the clock's own time is taken out.");
+  notes.emplace_back(
       "Verdicts, speed-ups and GB/s compare the fastest runs, which other programs on the machine "
       "cannot move; so they are not quotients of the medians beside them. A verdict is given when "
-      "the fastest times were seen twice, close enough together.",
+      "the fastest times were seen twice, close enough together.");
+  notes.emplace_back(
       "Figure 6, Figure 7 and the table are three measurements, one after the other: the same "
       "batch "
       "can differ between them. Claims about one collision are judged at the last batch of Figure "
-      "7, the break-even point by Figure 6."};
+      "7, the break-even point by Figure 6.");
   std::uint64_t pairs = 0;
   for (const bench::SelftestCheck& check : experiment.checks) {
     pairs += check.pairs;

@@ -51,7 +51,7 @@ std::string describe_afu(const afu::AfuReport& report) {
   const afu::LinkInfo& link = report.link;
   return fmt::format(
       "AFU ID   {}\n"
-      "Array    {} SCPUs, {} index lanes, up to {} lines in flight, table of {} spheres\n"
+      "Array    {} SCPUs, {} index lanes, up to {} lines in flight, {} spheres\n"
       "Formats  direct; direct, hits only; indexed, hits only\n"
       "Profile  {}: {}\n"
       "Link     {} MHz, {:.1f} bytes a cycle {}, {} lines in flight each way\n\n",

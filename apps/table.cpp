@@ -40,7 +40,7 @@ class Layout {
  public:
   Layout(const std::vector<Column>& columns, const std::vector<std::vector<Cell>>& rows) {
     for (std::size_t c = 0; c < columns.size(); ++c) {
-      Limits limit{width_of(columns[c].title), longest_word(columns[c].title), 1};
+      Limits limit{width_of(columns[c].title), longest_word(columns[c].title), 1, columns[c].right};
       for (const std::vector<Cell>& row : rows) {
         const std::size_t width = width_of(row[c].text);
         limit.width = std::max(limit.width, width);
@@ -52,8 +52,10 @@ class Layout {
     if (total() > kLineWidth) {
       gap_ = 1;
     }
-    shrink(&Limits::words);
-    shrink(&Limits::least);
+    shrink(&Limits::words, true);
+    shrink(&Limits::words, false);
+    shrink(&Limits::least, true);
+    shrink(&Limits::least, false);
   }
 
   [[nodiscard]] std::size_t width(std::size_t column) const { return limits_[column].width; }
@@ -64,6 +66,7 @@ class Layout {
     std::size_t width;
     std::size_t words;  ///< without a break inside a word
     std::size_t least;
+    bool numbers;
   };
 
   [[nodiscard]] std::size_t total() const {
@@ -74,10 +77,13 @@ class Layout {
     return sum;
   }
 
-  // Makes the widest column narrower, again and again, down to a limit of each.
-  void shrink(std::size_t Limits::*floor) {
+  // Makes the widest column of numbers, or of texts, narrower, again and again, down to a limit of
+  // each.
+  void shrink(std::size_t Limits::*floor, bool numbers) {
     while (total() > kLineWidth) {
-      const auto can = [&](const Limits& limit) { return limit.width > limit.*floor; };
+      const auto can = [&](const Limits& limit) {
+        return limit.numbers == numbers && limit.width > limit.*floor;
+      };
       const auto widest =
           std::max_element(limits_.begin(), limits_.end(), [&](const Limits& a, const Limits& b) {
             return (can(a) ? a.width : 0) < (can(b) ? b.width : 0);

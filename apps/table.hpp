@@ -29,9 +29,10 @@ struct Cell {
 inline constexpr std::size_t kLineWidth = 80;
 
 /// Title line, then one line per row; two spaces between columns, none at the end of a line.
-/// Where that is wider than kLineWidth, spaces between columns become one, then titles and texts
-/// (never numbers) are broken at spaces, the widest first, and within words last of all. Numbers
-/// that do not fit beside each other at all are left as wide as they are.
+/// Where that is wider than kLineWidth, spaces between columns become one, then titles above
+/// numbers are broken at spaces, then texts, the widest first, and within words last of all.
+/// Numbers are never broken: where they do not fit beside each other at all, they are left as wide
+/// as they are.
 std::string format_table(const Terminal& terminal, const std::vector<Column>& columns,
                          const std::vector<std::vector<Cell>>& rows);
 

@@ -159,9 +159,11 @@ HWY_INLINE void touch_next_page(const unsigned char* block) {
 ///
 ///   buffer  [ ... skew bytes | block of contacts ................. ]
 ///                ^ sent from here, as many bytes as the block has; the rest is the next skew
+///
+/// Not inlined: small batches would pay for its large frame.
 template <class Real>
-std::size_t pairs_streamed(const SpherePairOf<Real>* pairs, std::size_t count,
-                           ContactOf<Real>* contacts) {
+HWY_NOINLINE std::size_t pairs_streamed(const SpherePairOf<Real>* pairs, std::size_t count,
+                                        ContactOf<Real>* contacts) {
   constexpr std::size_t kLine = 64;
   constexpr std::size_t kBlock = 4 * kMaxLanes;
   constexpr std::size_t kBlockBytes = kBlock * sizeof(ContactOf<Real>);

@@ -53,7 +53,7 @@ std::string describe_afu(const afu::AfuReport& report) {
   const afu::LinkInfo& link = report.link;
   return fmt::format(
       "AFU ID   {}\n"
-      "Array    {} SCPUs, {} index lanes, up to {} lines in flight, table of {} spheres\n"
+      "Array    {} SCPUs, {} index lanes, up to {} lines in flight, {} spheres\n"
       "Formats  direct; direct, hits only; indexed, hits only\n"
       "Profile  {}: {}\n"
       "Link     {} MHz, {:.1f} bytes a cycle {}, {} lines in flight each way\n\n",
@@ -131,9 +131,10 @@ std::string describe_steps(const Terminal& terminal, const std::vector<AfuRun>& 
 
 std::string describe(const Terminal& terminal, const std::vector<AfuRun>& runs) {
   return describe_afu(runs.front().report) + describe_runs(terminal, runs) + "\n" +
-         describe_counters(terminal, runs) + "\n" + describe_steps(terminal, runs) +
-         "\nCycles, and ns made of them, are modelled. simulated/s is measured: pairs that the "
-         "simulation\nputs through in a second of this machine.\n";
+         describe_counters(terminal, runs) + "\n" + describe_steps(terminal, runs) + "\n" +
+         paragraph(
+             "Cycles, and ns made of them, are modelled. simulated/s is measured: pairs that "
+             "the simulation puts through in a second of this machine.");
 }
 
 Json link_json(const afu::LinkInfo& link) {

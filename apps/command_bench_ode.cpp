@@ -73,7 +73,7 @@ std::string describe(const Terminal& terminal, const bench::DropInOutcome& outco
                                    {"contacts", true},
                                    {"identical"}},
                                   rows);
-  for (const std::string& note : outcome.notes) text += note + "\n";
+  for (const std::string& note : outcome.notes) text += paragraph(note);
   return text;
 }
 
@@ -182,27 +182,35 @@ std::string describe(const Terminal& terminal, const std::vector<bench::ProgramR
     return fmt::format("{:.3f}", summary.median);
   };
   const auto times = [](double ratio) { return fmt::format("{:.2f}", ratio); };
-  std::vector<std::vector<Cell>> cells;
+  // Two tables, for one would be wider than a terminal.
+  std::vector<std::vector<Cell>> steps;
+  std::vector<std::vector<Cell>> collisions;
   for (const bench::ProgramRow& row : rows) {
-    cells.push_back({std::string(to_string(row.program)), fmt::format("{}", row.geoms),
-                     ms(row.stock_step_ms), ms(row.harpoon_step_ms), ms(row.stock_collision_ms),
-                     ms(row.harpoon_collision_ms), fmt::format("{:.1f} %", row.share() * 100),
-                     times(row.collision_speedup()), times(row.speedup()), times(row.limit()),
+    const std::string name(to_string(row.program));
+    steps.push_back({name, fmt::format("{}", row.geoms), ms(row.stock_step_ms),
+                     ms(row.harpoon_step_ms), times(row.speedup()), times(row.limit()),
                      row.identical ? "yes" : "NO"});
+    collisions.push_back({name, ms(row.stock_collision_ms), ms(row.harpoon_collision_ms),
+                          times(row.collision_speedup()),
+                          fmt::format("{:.1f} %", row.share() * 100)});
   }
   return format_table(terminal,
-                      {{"program"},
+                      {{"step of"},
                        {"geoms", true},
-                       {"step: stock ms", true},
+                       {"stock ms", true},
                        {"harpoon ms", true},
-                       {"collision: stock ms", true},
-                       {"harpoon ms", true},
-                       {"share", true},
-                       {"collision x", true},
-                       {"step x", true},
-                       {"limit x", true},
+                       {"speed-up", true},
+                       {"limit", true},
                        {"identical"}},
-                      cells);
+                      steps) +
+         "\n" +
+         format_table(terminal,
+                      {{"collision in"},
+                       {"stock ms", true},
+                       {"harpoon ms", true},
+                       {"speed-up", true},
+                       {"share", true}},
+                      collisions);
 }
 
 void measure_programs(const Context& context, const OdeOptions& options) {

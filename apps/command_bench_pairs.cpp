@@ -112,6 +112,7 @@ std::vector<std::string> leave_out_slow(const PairsOptions& options, bench::Pair
 }
 
 void measure(const Context& context, const PairsOptions& options) {
+  const bench::LoadWatch watch;
   bench::PairsPlan plan = to_plan(options);
   require_memory(plan, options);
   require_outputs(options);
@@ -135,7 +136,8 @@ void measure(const Context& context, const PairsOptions& options) {
                            outcome.timer_overhead_ns,
                            bench::to_rows(outcome.series, plan.type),
                            bench::to_copy_bandwidths(outcome.copy_series),
-                           outcome.notes};
+                           outcome.notes,
+                           watch.look()};
   const bool json_on_stdout = options.json == "-";
   const std::string table = describe_results(context.terminal, results);
   json_on_stdout ? remark(table) : print("{}", table);
@@ -157,30 +159,32 @@ bench::NamedDevice open_cpu(unsigned threads) {
 }
 
 void check(const Context& context, const PairsOptions& options) {
+  const bench::LoadWatch watch;
   bench::TargetPlan plan{open_cpu(1), open_cpu(2), open_cpu(0), options.rounds};
   const auto targets = [&] {
     Progress progress(context.terminal);
     const auto share = [&](double done) { progress.show(done, "measuring targets"); };
     return value_or_throw(bench::check_targets(plan, share));
   }();
-  std::vector<std::vector<Cell>> rows;
-  std::size_t missed = 0;
-  for (const bench::Target& target : targets) {
-    missed += target.passed() ? 0 : 1;
-    rows.push_back({target.what, fmt::format("{:.2f}", target.measured),
-                    fmt::format("{:.2f}", target.required),
-                    target.passed() ? Cell("pass", Colour::green) : Cell("MISS", Colour::red),
-                    target.command});
-  }
-  print("{}", format_table(
-                  context.terminal,
-                  {{"target"}, {"measured", true}, {"required", true}, {"verdict"}, {"by itself"}},
-                  rows));
+  print("{}", describe_targets(context.terminal, targets));
+  print("{}", paragraph(bench::describe_load(watch.look())));
+  const auto count = [&](bench::TargetVerdict verdict) {
+    return std::count_if(targets.begin(), targets.end(),
+                         [&](const bench::Target& t) { return t.verdict() == verdict; });
+  };
+  const auto missed = count(bench::TargetVerdict::missed);
+  const auto unsure = count(bench::TargetVerdict::unsure);
   if (missed > 0) {
     throw CommandError(ExitCode::failure,
-                       fmt::format("{} of {} targets were missed. Run again on an idle machine; if "
-                                   "they stay missed, the cpu device is slower than promised here.",
+                       fmt::format("{} of {} targets were missed: the cpu device is slower than "
+                                   "promised here.",
                                    missed, targets.size()));
+  }
+  if (unsure > 0) {
+    throw CommandError(ExitCode::failure,
+                       fmt::format("The run was too noisy to judge {} of {} targets. Run `harpoon "
+                                   "bench pairs --check --rounds 50` on an idle machine.",
+                                   unsure, targets.size()));
   }
 }
 
@@ -220,8 +224,10 @@ void add_details(CLI::App& pairs, PairsOptions& options) {
             "Distinct spheres of --format indexed");
   add_seed(pairs, options.seed, "Seed of the pairs of --format indexed");
   pairs.add_flag("--copy", options.copy, "Also measure the copy bandwidth of as many threads");
-  pairs.add_flag("--check", options.check,
-                 "Measure the promised figures of the cpu device instead; exit code 1 on a miss");
+  pairs.add_flag(
+      "--check", options.check,
+      "Measure the promised figures of the cpu device instead; exit code 1 on a miss, or "
+      "when the run is too noisy to say");
   add_name(pairs, "--json", options.json, "FILE",
            "Write the results as JSON; - for standard output");
   add_name(pairs, "--csv", options.csv, "FILE", "Append the results to a CSV file");
@@ -238,8 +244,9 @@ void add_bench_pairs(CLI::App& bench, Context& context) {
   pairs->footer(
       "ODE is timed on the same recorded pairs as one batch (device ode) and as in Figure 5 of "
       "the\n"
-      "paper (device ode (Figure 5)). Figures are medians over rounds; speed-ups relate to device "
-      "ode.\n\n"
+      "paper (device ode (Figure 5)). Figures are medians over rounds; speed-ups and GB/s are "
+      "those\n"
+      "of fastest batches, which other programs cannot move, and relate to device ode.\n\n"
       "Examples:\n"
       "  harpoon bench pairs --count 10,10000,90000\n"
       "  harpoon bench pairs --figure 7 --json figure7.json\n"

@@ -58,16 +58,19 @@ std::string milliseconds(double ms) {
   return fmt::format("{:.{}f}", ms, ms < 0.01 ? 6 : 3);
 }
 
+// Two tables, for one would be wider than a terminal: what a frame takes, and what it consists of.
 std::string describe(const Terminal& terminal, const bench::SceneOutcome& outcome) {
-  std::vector<std::vector<Cell>> rows;
+  std::vector<std::vector<Cell>> frames;
+  std::vector<std::vector<Cell>> parts;
   for (const bench::SceneRow& row : outcome.rows) {
-    rows.push_back({row.engine, row.precision, fmt::format("{}", row.threads),
-                    milliseconds(row.ms.median), milliseconds(row.ms.min),
-                    milliseconds(row.ms.high), fmt::format("{:.3f}", row.update_ms),
-                    fmt::format("{:.3f}", row.broad_ms), fmt::format("{:.3f}", row.narrow_ms),
-                    fmt::format("{}", row.pairs), fmt::format("{}", row.contacts),
-                    fmt::format("{:.2f}", static_cast<double>(row.bytes_floor) * 1e-6),
-                    fmt::format("{:.{}f}", row.speedup, row.speedup < 0.01 ? 6 : 2)});
+    frames.push_back({row.engine, row.precision, fmt::format("{}", row.threads),
+                      milliseconds(row.ms.median), milliseconds(row.ms.min),
+                      milliseconds(row.ms.high),
+                      fmt::format("{:.{}f}", row.speedup, row.speedup < 0.01 ? 6 : 2)});
+    parts.push_back({row.engine, fmt::format("{:.3f}", row.update_ms),
+                     fmt::format("{:.3f}", row.broad_ms), fmt::format("{:.3f}", row.narrow_ms),
+                     fmt::format("{}", row.pairs), fmt::format("{}", row.contacts),
+                     fmt::format("{:.2f}", static_cast<double>(row.bytes_floor) * 1e-6)});
   }
   std::string text = format_table(terminal,
                                   {{"engine"},
@@ -76,15 +79,19 @@ std::string describe(const Terminal& terminal, const bench::SceneOutcome& outcom
                                    {"ms/frame", true},
                                    {"min", true},
                                    {"p90", true},
-                                   {"update", true},
-                                   {"broad", true},
-                                   {"narrow", true},
-                                   {"pairs", true},
-                                   {"contacts", true},
-                                   {"floor MB", true},
                                    {"x harpoon", true}},
-                                  rows);
-  for (const std::string& note : outcome.notes) text += note + "\n";
+                                  frames);
+  text += "\n";
+  text += format_table(terminal,
+                       {{"engine"},
+                        {"update", true},
+                        {"broad", true},
+                        {"narrow", true},
+                        {"pairs", true},
+                        {"contacts", true},
+                        {"floor MB", true}},
+                       parts);
+  for (const std::string& note : outcome.notes) text += paragraph(note);
   return text;
 }
 

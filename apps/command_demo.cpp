@@ -46,7 +46,8 @@ bench::ResultSet to_results(const Context& context, const Experiment& experiment
           experiment.table.timer_overhead_ns,
           rows,
           {},
-          report_notes(experiment)};
+          report_notes(experiment),
+          experiment.load};
 }
 
 constexpr const char* kReport = "report.html";
@@ -73,9 +74,15 @@ std::vector<std::filesystem::path> write_all(const std::filesystem::path& out,
 }
 
 void print_claims(const Context& context, const Experiment& experiment) {
+  const auto print_lines = [](const std::string& text, const char* indent) {
+    for (const std::string& line : broken_into_lines(text, kLineWidth - 2)) {
+      print("{}{}\n", indent, line);
+    }
+  };
   for (const Claim& claim : judge_claims(experiment)) {
-    print("{}\n  here: {} {}\n", "Paper: " + claim.paper, claim.ours,
-          coloured(context.terminal, Colour::bold, "[" + claim.verdict + "]"));
+    print_lines("Paper: " + claim.paper, "");
+    print_lines("here: " + claim.ours, "  ");
+    print("  {}\n", coloured(context.terminal, Colour::bold, "[" + claim.verdict + "]"));
   }
 }
 
@@ -104,9 +111,9 @@ void add_demo(CLI::App& root, Context& context) {
   auto options = std::make_shared<DemoOptions>();
   add_name(*demo, "--out", options->out, "DIR", "Folder to write the report and the data into");
   demo->add_flag("--quick", options->quick,
-                 "Few points and one round: to see that it works, not to measure");
+                 "Few points and few rounds: to see that it works, not to measure");
   demo->footer(
-      "Takes up to a minute. Writes report.html (one offline file), results.json, results.csv,\n"
+      "Takes about a minute. Writes report.html (one offline file), results.json, results.csv,\n"
       "figure6.csv and figure7.csv.\n\nExamples:\n  harpoon demo\n  harpoon demo --out today");
   demo->callback(
       [&context, options] { context.run = [&context, options] { run(context, *options); }; });

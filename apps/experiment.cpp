@@ -11,6 +11,8 @@ namespace {
 
 constexpr std::size_t kQuickStride = 20;
 constexpr std::size_t kQuickPairs = 1000;
+/// So that a time can be seen again.
+constexpr unsigned kQuickRounds = 5;
 
 // The parts of the experiment and how much of the whole time each takes.
 struct Part {
@@ -33,7 +35,7 @@ bench::PairsPlan figure_plan(const ExperimentPlan& plan, const std::vector<std::
                              double time_limit_s) {
   bench::PairsPlan pairs;
   pairs.counts = plan.quick ? thinned(counts) : counts;
-  pairs.rounds = plan.quick ? 1 : 9;
+  pairs.rounds = plan.quick ? kQuickRounds : 9;
   pairs.time_limit_s = time_limit_s;
   pairs.figure5 = true;
   pairs.devices = plan.devices;
@@ -46,7 +48,7 @@ bench::PairsPlan table_plan(const ExperimentPlan& plan) {
   if (plan.quick) {
     pairs.counts = {10, kQuickPairs};
   }
-  pairs.rounds = plan.quick ? 1 : 15;
+  pairs.rounds = plan.quick ? kQuickRounds : 15;
   pairs.time_limit_s = 10;
   pairs.figure5 = true;
   pairs.devices = plan.table_devices;
@@ -85,10 +87,13 @@ bool Experiment::contacts_are_right() const {
 }
 
 Experiment run_experiment(const ExperimentPlan& plan, const bench::ShareDone& share_done) {
+  const bench::LoadWatch watch;
   Experiment experiment;
+  experiment.quick = plan.quick;
   experiment.figure6 = measure(figure_plan(plan, figure6_counts(), 8), kFigure6Part, share_done);
   experiment.figure7 = measure(figure_plan(plan, figure7_counts(), 16), kFigure7Part, share_done);
   experiment.table = measure(table_plan(plan), kTablePart, share_done);
+  experiment.load = watch.look();
   experiment.checks = check_contacts(plan);
   return experiment;
 }

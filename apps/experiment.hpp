@@ -6,6 +6,7 @@
 #include <vector>
 
 #include "bench/device_contestant.hpp"
+#include "bench/machine_load.hpp"
 #include "bench/ode/pairs_bench.hpp"
 #include "bench/selftest.hpp"
 
@@ -14,7 +15,7 @@ namespace harpoon::app {
 struct ExperimentPlan {
   std::vector<bench::NamedDevice> devices;        ///< of the figures
   std::vector<bench::NamedDevice> table_devices;  ///< of the table
-  /// A twentieth of the counts and one round: to see that everything works, not to measure.
+  /// A twentieth of the counts and few rounds: to see that everything works, not to measure.
   bool quick = false;
 };
 
@@ -24,11 +25,13 @@ struct Experiment {
   bench::PairsOutcome table;
   /// Every table device on the recorded pairs, against Algorithm 1.
   std::vector<bench::SelftestCheck> checks;
+  bench::MachineLoad load;  ///< while it was measured
+  bool quick = false;       ///< as planned
 
   [[nodiscard]] bool contacts_are_right() const;
 };
 
-/// Takes at most about 50 s on two cores.
+/// Takes about 50 s on two idle cores.
 /// Throws CommandError.
 Experiment run_experiment(const ExperimentPlan& plan, const bench::ShareDone& share_done);
 

@@ -4,6 +4,7 @@
 
 #include "apps/exit_code.hpp"
 #include "apps/figures.hpp"
+#include "apps/report_headlines.hpp"
 #include "bench/lattice.hpp"
 
 namespace harpoon::app {
@@ -25,6 +26,17 @@ bench::Json diamonds_json() {
   return diamonds;
 }
 
+bench::Json headlines_json(const Experiment& experiment, const bench::ResultSet& results) {
+  bench::Json all = bench::Json::array();
+  for (const Headline& one : headlines(experiment, results)) {
+    all.push_back({{"value", one.value},
+                   {"label", one.label},
+                   {"detail", one.detail},
+                   {"modelled", one.modelled}});
+  }
+  return all;
+}
+
 bench::Json claims_json(const Experiment& experiment) {
   bench::Json claims = bench::Json::array();
   for (const Claim& claim : judge_claims(experiment)) {
@@ -41,13 +53,16 @@ bench::Json report_data(const Experiment& experiment, const bench::ResultSet& re
     rows.push_back(bench::row_json(row));
   }
   return {
-      {"schema", 1},
+      {"schema", 2},
       {"title", "Harpoon: the paper's experiment"},
       {"experiment",
        "Real collisions of spheres, recorded from a diamond of 63 spheres (hMax 3, dSph 0) that "
        "ODE pulls to its centre, are executed by stock ODE and by every device of this machine, "
        "in turns."},
+      {"headlines", headlines_json(experiment, results)},
       {"machine", bench::machine_json(results.machine)},
+      {"load", bench::load_json(results.load)},
+      {"load_text", bench::describe_load(results.load)},
       {"commit", results.commit},
       {"date", results.date},
       {"command", results.command},

@@ -14,7 +14,7 @@ namespace harpoon::app {
 /// The page without data, as built from web/. Static storage.
 std::string_view report_template();
 
-/// The data of the page (schema 1).
+/// The data of the page (schema 2).
 bench::Json report_data(const Experiment& experiment, const bench::ResultSet& results);
 
 /// The page: `data` takes the place of `null` in the template's harpoon-data element, with every

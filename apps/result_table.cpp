@@ -25,20 +25,35 @@ std::set<std::size_t> counts_to_show(const bench::ResultSet& results) {
   return shown;
 }
 
+std::string name_of(const bench::Label& label) {
+  const bool is_usual = label.format == "records" || label.format == "geoms";
+  return fmt::format("{} {}{}{}{}", label.device, label.precision, is_usual ? "" : " ",
+                     is_usual ? "" : label.format, label.modelled ? " modelled" : "");
+}
+
 std::vector<Cell> row_cells(const bench::ResultRow& row) {
   const bench::Measurement& m = row.measured;
   const auto pairs = static_cast<double>(m.count);
-  return {row.label.device,
-          row.label.precision,
+  return {name_of(row.label),
           fmt::format("{}", row.label.threads),
-          row.label.format,
           fmt::format("{}", m.count),
           fmt::format("{:.2f}", row.ns_per_pair()),
-          fmt::format("{:.2f}", m.ns.min / pairs),
+          fmt::format("{:.2f}", row.fastest_ns_per_pair()),
           fmt::format("{:.2f}-{:.2f}", m.ns.low / pairs, m.ns.high / pairs),
           fmt::format("{:.2f}", row.speedup_vs_ode),
-          fmt::format("{:.1f}", row.gb_per_s()),
-          row.label.modelled ? "modelled" : "measured"};
+          fmt::format("{:.1f}", row.gb_per_s())};
+}
+
+Cell verdict_cell(bench::TargetVerdict verdict) {
+  switch (verdict) {
+    case bench::TargetVerdict::pass:
+      return {"pass", Colour::green};
+    case bench::TargetVerdict::missed:
+      return {"MISS", Colour::red};
+    case bench::TargetVerdict::unsure:
+      break;
+  }
+  return "too noisy to say";
 }
 
 }  // namespace
@@ -57,28 +72,57 @@ std::string describe_results(const Terminal& terminal, const bench::ResultSet& r
   }
   std::string text = format_table(terminal,
                                   {{"device"},
-                                   {"precision"},
                                    {"threads", true},
-                                   {"format"},
                                    {"pairs", true},
                                    {"ns/pair", true},
-                                   {"min", true},
+                                   {"fastest", true},
                                    {"10-90 %", true},
                                    {"x ODE", true},
-                                   {"GB/s", true},
-                                   {"time"}},
+                                   {"GB/s", true}},
                                   rows);
   for (const bench::CopyBandwidth& copy : results.copy) {
     text += fmt::format(
         "Copy bandwidth, {} thread(s): {:.1f} GB/s (memcpy {:.1f}, non-temporal {:.1f})\n",
         copy.threads, copy.best_gb_per_s(), copy.memcpy_gb_per_s, copy.non_temporal_gb_per_s);
   }
-  text += fmt::format("Reading the clock takes {:.1f} ns; it is taken out of ODE's times.\n",
-                      results.timer_overhead_ns);
+  text += paragraph(
+      "ns/pair is the median over the rounds; x ODE and GB/s are those of the fastest batches, "
+      "which "
+      "other programs cannot move.");
+  text +=
+      paragraph(fmt::format("Reading the clock takes {:.1f} ns; it is taken out of ODE's times.",
+                            results.timer_overhead_ns));
+  text += paragraph(bench::describe_load(results.load));
   for (const std::string& note : results.notes) {
-    text += note + "\n";
+    text += paragraph(note);
   }
   return text;
 }
+
+#if HARPOON_WITH_ODE
+
+std::string describe_targets(const Terminal& terminal, const std::vector<bench::Target>& targets) {
+  std::vector<std::vector<Cell>> rows;
+  for (const bench::Target& target : targets) {
+    rows.push_back({target.what, fmt::format("{:.2f}", target.measured),
+                    fmt::format("{:.2f}-{:.2f}", target.sure.low, target.sure.high),
+                    fmt::format("{:.2f}", target.required), verdict_cell(target.verdict())});
+  }
+  std::string text = format_table(
+      terminal,
+      {{"target"}, {"measured", true}, {"surely in", true}, {"required", true}, {"verdict"}}, rows);
+  text += "Each by itself:\n";
+  for (const bench::Target& target : targets) {
+    std::string continued;
+    for (const std::string& line : broken_into_lines(target.command, kLineWidth - 6)) {
+      text += fmt::format("{}{}", continued.empty() ? "  " : continued, line);
+      continued = " \\\n    ";
+    }
+    text += "\n";
+  }
+  return text;
+}
+
+#endif
 
 }  // namespace harpoon::app

@@ -19,6 +19,8 @@ constexpr std::size_t kLine = 64;
 
 #if defined(__x86_64__)
 
+constexpr std::size_t kPage = 4096;
+
 void stream_lines_sse2(const std::byte* source, std::byte* target, std::size_t bytes) {
   for (std::size_t i = 0; i < bytes; i += sizeof(__m128i)) {
     const __m128i v = _mm_loadu_si128(reinterpret_cast<const __m128i*>(source + i));
@@ -39,10 +41,13 @@ void copy_non_temporal(const std::byte* source, std::byte* target, std::size_t b
   const std::size_t head = std::min(bytes, (kLine - address % kLine) % kLine);
   const std::size_t body = (bytes - head) / kLine * kLine;
   std::memcpy(target, source, head);
-  if (__builtin_cpu_supports("avx512f")) {
-    stream_lines_avx512(source + head, target + head, body);
-  } else {
-    stream_lines_sse2(source + head, target + head, body);
+  const bool wide = __builtin_cpu_supports("avx512f") != 0;
+  for (std::size_t i = 0; i < body; i += kPage) {
+    // Streaming stores look up the page they go to one after the other: a touch ahead of time takes
+    // that out of the way. It never faults, so it may be past the end.
+    _mm_prefetch(reinterpret_cast<const char*>(address + head + i + kPage), _MM_HINT_T0);
+    const auto stream = wide ? stream_lines_avx512 : stream_lines_sse2;
+    stream(source + head + i, target + head + i, std::min(kPage, body - i));
   }
   std::memcpy(target + head + body, source + head + body, bytes - head - body);
   _mm_sfence();

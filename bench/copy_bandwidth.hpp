@@ -13,8 +13,10 @@
 namespace harpoon::bench {
 
 enum class CopyMethod : std::uint8_t {
-  library,       ///< std::memcpy
-  non_temporal,  ///< stores past the caches (x86: widest streaming store), else as `library`
+  library,  ///< std::memcpy
+  /// Stores past the caches (x86: widest streaming store, each page of the target touched ahead of
+  /// it), else as `library`.
+  non_temporal,
 };
 
 /// Copies `source` to `target` (equal sizes) with `threads` threads, each its own slice.

@@ -15,6 +15,8 @@ Json machine_json(const Machine& machine);
 /// What every document of results begins with: machine, commit, date and command.
 Json head_json(const Machine& machine, const std::string& commit, const std::string& date,
                const std::string& command);
+/// "before", "after", "waiting", "busy"; null where the kernel does not tell.
+Json load_json(const MachineLoad& load);
 Json row_json(const ResultRow& row);
 
 }  // namespace harpoon::bench

@@ -4,6 +4,7 @@
 #include <sys/sysinfo.h>
 #include <sys/utsname.h>
 
+#include <algorithm>
 #include <chrono>
 #include <ctime>
 #include <fstream>
@@ -46,6 +47,21 @@ double memory_gb() {
   return static_cast<double>(info.totalram) * static_cast<double>(info.mem_unit) / 1e9;
 }
 
+// The kernel tells a size as "32768K".
+double cache_mb() {
+  constexpr double kMbPerKib = 1024e-6;
+  double largest = 0;
+  for (int index = 0; index < 8; ++index) {
+    std::ifstream file("/sys/devices/system/cpu/cpu0/cache/index" + std::to_string(index) +
+                       "/size");
+    double kib = 0;
+    if (file >> kib) {
+      largest = std::max(largest, kib * kMbPerKib);
+    }
+  }
+  return largest;
+}
+
 std::string kernel() {
   utsname name{};
   if (uname(&name) != 0) {
@@ -74,9 +90,16 @@ std::string ode() {
 
 Machine describe_machine() {
   const std::vector<std::string> sets = cpu_instruction_sets();
-  return {field_of("/proc/cpuinfo", "model name", ':'),    usable_cores(), memory_gb(),
-          field_of("/etc/os-release", "PRETTY_NAME", '='), kernel(),       compiler(),
-          sets.empty() ? "scalar" : sets.back(),           ode(),          std::string(version())};
+  return {field_of("/proc/cpuinfo", "model name", ':'),
+          usable_cores(),
+          memory_gb(),
+          field_of("/etc/os-release", "PRETTY_NAME", '='),
+          kernel(),
+          compiler(),
+          sets.empty() ? "scalar" : sets.back(),
+          ode(),
+          std::string(version()),
+          cache_mb()};
 }
 
 std::string build_commit() {

@@ -16,6 +16,7 @@ struct Machine {
   std::string instruction_set;  ///< widest in use
   std::string ode;              ///< version and precision, or "absent"
   std::string harpoon;          ///< version
+  double cache_mb = 0;          ///< the largest cache; 0 where the machine does not tell
 };
 
 /// Reads the running machine; fields that it does not tell are "unknown".

@@ -12,7 +12,7 @@ namespace {
 
 // A bandwidth in GB/s is a number of bytes per nanosecond.
 double bytes_per_ns(const Label& label, const Measurement& m) {
-  return label.bytes_per_pair / m.ns_per_pair();
+  return label.bytes_per_pair / m.fastest_ns_per_pair();
 }
 
 // Commas and quotes occur in CPU names.
@@ -33,16 +33,20 @@ double ResultRow::gb_per_s() const {
   return bytes_per_ns(label, measured);
 }
 
+double ResultRow::megabytes() const {
+  return label.bytes_per_pair * static_cast<double>(measured.count) * 1e-6;
+}
+
 double CopyBandwidth::best_gb_per_s() const {
   return std::max(memcpy_gb_per_s, non_temporal_gb_per_s);
 }
 
 std::vector<ResultRow> to_rows(std::span<const Series> series, PairType type) {
-  std::map<std::size_t, double> ode_ns;
+  std::map<std::size_t, Summary> ode_ns;
   for (const Series& s : series) {
     if (s.label.device == kOdeDevice) {
       for (const Measurement& m : s.points) {
-        ode_ns[m.count] = m.ns.median;
+        ode_ns[m.count] = m.ns;
       }
     }
   }
@@ -50,7 +54,12 @@ std::vector<ResultRow> to_rows(std::span<const Series> series, PairType type) {
   for (const Series& s : series) {
     for (const Measurement& m : s.points) {
       const auto ode = ode_ns.find(m.count);
-      rows.push_back({s.label, type, m, ode == ode_ns.end() ? 0 : ode->second / m.ns.median});
+      ResultRow row{s.label, type, m, 0, {}};
+      if (ode != ode_ns.end()) {
+        row.speedup_vs_ode = ode->second.min / m.ns.min;
+        row.speedup_range = ratio_of(ode->second.undisturbed(), m.ns.undisturbed());
+      }
+      rows.push_back(std::move(row));
     }
   }
   return rows;
@@ -61,7 +70,11 @@ std::vector<CopyBandwidth> to_copy_bandwidths(std::span<const Series> series) {
   for (const Series& s : series) {
     CopyBandwidth& copy = by_threads[s.label.threads];
     copy.threads = s.label.threads;
-    const double rate = bytes_per_ns(s.label, s.points.back());
+    const Measurement& m = s.points.back();
+    const double rate = bytes_per_ns(s.label, m);
+    if (rate > copy.best_gb_per_s()) {
+      copy.best_range = {rate / (1 + m.ns.undisturbed().width()), rate};
+    }
     (s.label.format == "memcpy" ? copy.memcpy_gb_per_s : copy.non_temporal_gb_per_s) = rate;
   }
   std::vector<CopyBandwidth> all;
@@ -84,6 +97,7 @@ std::string to_json(const ResultSet& results) {
                       {"best_gb_per_s", copy.best_gb_per_s()}});
   }
   Json root = head_json(results.machine, results.commit, results.date, results.command);
+  root["load"] = load_json(results.load);
   root["timer_overhead_ns"] = results.timer_overhead_ns;
   root["results"] = std::move(rows);
   root["copy_bandwidth"] = std::move(copies);

@@ -1,8 +1,9 @@
 #pragma once
 
 // Takes all contestants through all counts, turn by turn: in every round each count is done by each
-// contestant in order before anything is done again. A disturbance of the machine then falls on all
-// of them alike, and medians over rounds are comparable.
+// contestant in order before anything is done again. A lasting disturbance of the machine then
+// falls on all of them alike; a short one on a few samples, which medians and fastest times leave
+// behind.
 
 #include <functional>
 #include <memory>
@@ -22,6 +23,7 @@ struct Measurement {
   std::uint64_t runs = 0;  ///< of the batch, over all turns
 
   [[nodiscard]] double ns_per_pair() const { return ns.median / static_cast<double>(count); }
+  [[nodiscard]] double fastest_ns_per_pair() const { return ns.min / static_cast<double>(count); }
 };
 
 struct Series {

@@ -20,10 +20,37 @@ std::vector<double> sorted_copy(std::span<const double> values) {
   return sorted;
 }
 
+double second_of_minima(std::span<const double> values) {
+  constexpr std::size_t kParts = 4;
+  const std::size_t parts = std::min(kParts, values.size());
+  std::vector<double> minima;
+  for (std::size_t part = 0; part < parts; ++part) {
+    const std::size_t begin = part * values.size() / parts;
+    const std::size_t end = (part + 1) * values.size() / parts;
+    minima.push_back(*std::min_element(values.begin() + static_cast<std::ptrdiff_t>(begin),
+                                       values.begin() + static_cast<std::ptrdiff_t>(end)));
+  }
+  std::sort(minima.begin(), minima.end());
+  return minima[std::min<std::size_t>(1, parts - 1)];
+}
+
+// The upper quartile of the distances from `centre`.
+double spread_around(std::span<const double> values, double centre) {
+  std::vector<double> distances;
+  for (const double value : values) {
+    distances.push_back(std::abs(value - centre));
+  }
+  return quantile_of_sorted(sorted_copy(distances), 0.75);
+}
+
 }  // namespace
 
 double quantile_of(std::span<const double> values, double quantile) {
   return quantile_of_sorted(sorted_copy(values), quantile);
+}
+
+Range ratio_of(const Range& a, const Range& b) {
+  return {a.low / b.high, a.high / b.low};
 }
 
 Summary summarize(std::span<const double> values) {
@@ -32,29 +59,30 @@ Summary summarize(std::span<const double> values) {
   }
   const std::vector<double> sorted = sorted_copy(values);
   return {quantile_of_sorted(sorted, 0.5), sorted.front(), quantile_of_sorted(sorted, 0.1),
-          quantile_of_sorted(sorted, 0.9), sorted.size()};
+          quantile_of_sorted(sorted, 0.9), sorted.size(),  second_of_minima(values)};
 }
 
 LineFit fit_line(std::span<const double> x, std::span<const double> y) {
-  const auto n = static_cast<double>(x.size());
-  double mean_x = 0;
-  double mean_y = 0;
+  std::vector<double> slopes;
   for (std::size_t i = 0; i < x.size(); ++i) {
-    mean_x += x[i] / n;
-    mean_y += y[i] / n;
+    for (std::size_t j = 0; j < i; ++j) {
+      if (x[i] != x[j]) {
+        slopes.push_back((y[i] - y[j]) / (x[i] - x[j]));
+      }
+    }
   }
-  double xx = 0;
-  double xy = 0;
-  double yy = 0;
+  LineFit fit;
+  fit.slope = quantile_of(slopes, 0.5);
+  std::vector<double> rests;
   for (std::size_t i = 0; i < x.size(); ++i) {
-    xx += (x[i] - mean_x) * (x[i] - mean_x);
-    xy += (x[i] - mean_x) * (y[i] - mean_y);
-    yy += (y[i] - mean_y) * (y[i] - mean_y);
+    rests.push_back(y[i] - fit.slope * x[i]);
   }
-  const double slope = xy / xx;
+  fit.intercept = quantile_of(rests, 0.5);
+  fit.residual = spread_around(rests, fit.intercept);
+  const double spread = spread_around(y, quantile_of(y, 0.5));
   // A horizontal set of points is a line exactly.
-  const double r_squared = yy > 0 ? (xy * xy) / (xx * yy) : 1;
-  return {mean_y - slope * mean_x, slope, r_squared};
+  fit.explained = spread > 0 ? 1 - (fit.residual / spread) * (fit.residual / spread) : 1;
+  return fit;
 }
 
 }  // namespace harpoon::bench

@@ -24,7 +24,8 @@ struct Figure5Run {
   double timer_overhead_ns = 0;  ///< taken out once per collision, divided by the executions
 };
 
-/// `counts` ascending. An execution is one stock `dCollide` for one contact.
+/// `counts` ascending. An execution is one stock `dCollide` for one contact. Ten executions that
+/// took more than 50 times as long as the shortest ten so far were interrupted and are done again.
 /// When interrupted, `total_ns` is shorter than `counts`.
 /// Errors: invalid_argument (parameters; or no collision of the type in kMaxBarrenSteps steps,
 /// as for PairType::grazing, which does not occur in the diamond).

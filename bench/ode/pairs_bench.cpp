@@ -108,6 +108,9 @@ class Arena {
       return;
     }
     const auto memory = std::make_shared<PairMemory<Real>>(std::move(pairs));
+    if constexpr (sizeof(Real) == 4) {
+      f32_memory_ = memory;
+    }
     for (const NamedDevice& device : able) {
       contestants_.push_back(make_records_contestant<Real>(device, memory));
     }
@@ -117,11 +120,22 @@ class Arena {
     if (plan_.copy_threads.empty()) {
       return;
     }
-    copy_source_.assign(kCopyPairs * sizeof(SpherePair), std::byte{1});
-    copy_target_.assign(copy_source_.size(), std::byte{2});
+    constexpr std::size_t kCopyBytes = kCopyPairs * sizeof(SpherePair);
+    std::span<const std::byte> source;
+    std::span<std::byte> target;
+    if (f32_memory_ && most() >= kCopyPairs) {
+      // What is compared with a copy moves the same bytes of the same pages.
+      source = std::as_bytes(std::span(f32_memory_->pairs)).first(kCopyBytes);
+      target = std::as_writable_bytes(std::span(f32_memory_->contacts)).first(kCopyBytes);
+    } else {
+      copy_source_.assign(kCopyBytes, std::byte{1});
+      copy_target_.assign(kCopyBytes, std::byte{2});
+      source = copy_source_;
+      target = copy_target_;
+    }
     for (const unsigned threads : plan_.copy_threads) {
       for (const CopyMethod method : {CopyMethod::library, CopyMethod::non_temporal}) {
-        copies_.push_back(make_copy_contestant(method, copy_source_, copy_target_, threads));
+        copies_.push_back(make_copy_contestant(method, source, target, threads));
       }
     }
   }
@@ -135,6 +149,7 @@ class Arena {
   const Interrupted& interrupted_;
   std::optional<Recording> recording_;
   IndexedScene scene_;
+  std::shared_ptr<PairMemory<float>> f32_memory_;  ///< of records; null for other formats
   std::vector<std::byte> copy_source_;
   std::vector<std::byte> copy_target_;
   std::vector<std::unique_ptr<Contestant>> contestants_;

@@ -25,7 +25,9 @@ struct PairsPlan {
   unsigned rounds = 11;     ///< at least 1
   double time_limit_s = 0;  ///< when above 0: no further round after it, but three in any case
   bool figure5 = false;     ///< also time ODE the paper's way
-  std::vector<unsigned> copy_threads;    ///< measure copy bandwidth with so many threads each
+  /// Measure copy bandwidth with so many threads each: on the f32 records of the batch where they
+  /// are at least 8,000,000, else on memory of its own.
+  std::vector<unsigned> copy_threads;
   std::size_t indexed_spheres = 100000;  ///< for Format::indexed
   std::uint64_t seed = 1;                ///< for Format::indexed
   DiamondParameters diamond;

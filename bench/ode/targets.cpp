@@ -30,6 +30,13 @@ const ResultRow* find_row(const std::vector<ResultRow>& rows, const RowKey& key)
   return nullptr;
 }
 
+// The share of a copy's bandwidth that a row's fastest batches reached.
+Range share_of(const ResultRow& row, const CopyBandwidth& copy) {
+  const double rate = row.gb_per_s();
+  const Range rates = {rate / (1 + row.measured.ns.undisturbed().width()), rate};
+  return ratio_of(rates, copy.best_range);
+}
+
 class TargetCheck {
  public:
   TargetCheck(const TargetPlan& plan, const ShareDone& share_done, const Interrupted& interrupted)
@@ -59,8 +66,9 @@ class TargetCheck {
     return run_pairs(plan, share, interrupted_);
   }
 
-  void add(std::string what, double measured, double required, std::string command) {
-    targets_.push_back({std::move(what), measured, required, std::move(command)});
+  void add(std::string what, double measured, const Range& sure, double required,
+           std::string command) {
+    targets_.push_back({std::move(what), measured, sure, required, std::move(command)});
   }
 
   Result<bool> hot_records() {
@@ -83,7 +91,7 @@ class TargetCheck {
       if (const ResultRow* row = find_row(rows, {w.precision, 1, w.count})) {
         add(fmt::format("{} records, {} recorded real pairs: times faster than dCollide",
                         w.precision, w.count),
-            row->speedup_vs_ode, w.required,
+            row->speedup_vs_ode, row->speedup_range, w.required,
             fmt::format("harpoon bench pairs --device cpu --count {} --precision {}", w.count,
                         w.precision));
       }
@@ -109,7 +117,7 @@ class TargetCheck {
       if (const ResultRow* row = find_row(rows, {"f32", 1, kMany})) {
         add(fmt::format("f32 indexed, {} spheres, {} random {} pairs: times faster than dCollide",
                         plan.indexed_spheres, kMany, to_string(type)),
-            row->speedup_vs_ode, kRequired,
+            row->speedup_vs_ode, row->speedup_range, kRequired,
             fmt::format("harpoon bench pairs --device cpu --format indexed --type {} --count {} "
                         "--precision f32",
                         to_string(type), kMany));
@@ -149,7 +157,9 @@ class TargetCheck {
                       bound ? fmt::format(" (at {:.0f} % of {:.1f} GB/s of copying)",
                                           100 * kBandwidthShare, copy)
                             : ""),
-          one->ns_per_pair() / two->ns_per_pair(), bound ? bandwidth_allows : kRequired,
+          one->measured.ns.min / two->measured.ns.min,
+          ratio_of(one->measured.ns.undisturbed(), two->measured.ns.undisturbed()),
+          bound ? bandwidth_allows : kRequired,
           fmt::format("harpoon bench pairs --device cpu --count {} --precision f32 --threads 1,2 "
                       "--copy",
                       count));
@@ -178,7 +188,7 @@ class TargetCheck {
         add(fmt::format("f32 records, {} pairs, {} thread(s): share of the copy bandwidth, "
                         "{:.1f} GB/s",
                         kBeyondCaches, copy.threads, copy.best_gb_per_s()),
-            row->gb_per_s() / copy.best_gb_per_s(), kBandwidthShare,
+            row->gb_per_s() / copy.best_gb_per_s(), share_of(*row, copy), kBandwidthShare,
             fmt::format(
                 "harpoon bench pairs --device cpu --count {} --precision f32 --threads {} --copy",
                 kBeyondCaches, copy.threads));

@@ -1,7 +1,8 @@
 #pragma once
 
 // The figures that the cpu device must reach, as data, and their measurement. Each is a ratio of
-// two medians of one interleaved run, so that it means the same on any machine.
+// the fastest times of one interleaved run, so that it means the same on any machine and what else
+// the machine does cannot move it.
 
 #include <string>
 #include <vector>
@@ -10,13 +11,25 @@
 
 namespace harpoon::bench {
 
+enum class TargetVerdict {
+  pass,
+  missed,
+  unsure,  ///< the times differ by more than what is missing: the run was too noisy to say
+};
+
 struct Target {
   std::string what;
   double measured = 0;
+  Range sure;  ///< holds `measured`; its width is what the fastest times differ by
   double required = 0;
   std::string command;  ///< that measures the figure by itself
 
-  [[nodiscard]] bool passed() const { return measured >= required; }
+  [[nodiscard]] TargetVerdict verdict() const {
+    if (measured >= required) {
+      return TargetVerdict::pass;
+    }
+    return sure.high < required ? TargetVerdict::missed : TargetVerdict::unsure;
+  }
 };
 
 struct TargetPlan {

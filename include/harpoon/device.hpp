@@ -28,7 +28,8 @@ namespace harpoon {
 inline constexpr std::uint64_t kMaxBatchPairs = std::uint64_t{1} << 31;
 
 /// One contact record per pair, in pair order. `contacts` must hold at least `pairs.size()` records
-/// (else Errc::capacity) and must not overlap `pairs`.
+/// (else Errc::capacity) and must not overlap `pairs`; both are aligned as their types are (else
+/// Errc::invalid_argument).
 template <class Real>
 struct PairBatch {
   std::span<const SpherePairOf<Real>> pairs;
@@ -184,11 +185,13 @@ struct DeviceInfo {
   bool modelled = false;
 };
 
-/// Every device that Harpoon knows, available or not, cpu first.
+/// The devices that the library itself can open, cpu first. Others a program puts together and
+/// owns, as the `harpoon` command does with its simulated AFU: these are not listed.
 HARPOON_API std::vector<DeviceInfo> list_devices();
 
-/// Opens a device by name with default options. Errors: invalid_argument (unknown name; the message
-/// lists the known ones), device_unavailable (the message says how to get it).
+/// Opens a device of `list_devices` by name, with default options. Errors: invalid_argument
+/// (another name; the message lists the known ones), device_unavailable (one that is listed as not
+/// available), out_of_memory.
 HARPOON_API Result<std::unique_ptr<Device>> open_device(std::string_view name) noexcept;
 
 /// Algorithm 1 for a single pair on the calling thread; the bits of every device. Thread-safe.

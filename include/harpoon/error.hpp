@@ -1,7 +1,7 @@
 #pragma once
 
-/// Errors as values. Every fallible function of the library returns a `Result`; nothing throws
-/// across the public boundary. A message names the offending pair, body or option and the remedy.
+/// Errors as values. Every fallible function of the library returns a `Result`, or an optional
+/// `Error` where there is no value; nothing throws across the public boundary.
 
 #include <cstdint>
 #include <string>
@@ -14,7 +14,7 @@
 namespace harpoon {
 
 enum class Errc : std::uint8_t {
-  invalid_argument,  ///< null buffer, overlapping buffers, bad option value
+  invalid_argument,  ///< null, misaligned or overlapping buffers, bad option value
   invalid_index,     ///< an index pair names a body that is not in the sphere array
   capacity,          ///< the output buffer is too small; `Error::needed` says how large it must be
   batch_too_large,   ///< more than `kMaxBatchPairs` pairs in one batch
@@ -31,7 +31,8 @@ HARPOON_API std::string_view to_string(Errc code) noexcept;
 
 struct Error {
   Errc code = Errc::invalid_argument;
-  /// One sentence that names what is wrong and one that names the remedy; no trailing newline.
+  /// What is wrong, in words for people, with the offending pair or number where there is one and
+  /// the remedy where it does not follow; no trailing newline.
   std::string message;
   /// For `Errc::capacity`: the number of output records that the call needs. Otherwise 0.
   std::uint64_t needed = 0;

@@ -41,6 +41,17 @@ struct SpherePairOf {
 /// `depth` >= 0 is the penetration depth (0 when the spheres just touch).
 /// For Flow::fake the seven numbers are +0. For Flow::grazing pos = p1, normal = (1, 0, 0) and
 /// depth = r1 + r2.
+///
+/// The length of `normal` is 1 to 2e-7 in f32 and to 4e-16 in f64, unless the squares of the
+/// centres' differences underflow. There it is off, as in ODE, whose bits these are; the direction
+/// stays right to 1e-5 degrees:
+///
+///   distance of centres        f32  1e-20   1e-21   3e-22   1e-22   3e-23     f64  1e-160   3e-162
+///   length off by at most           1e-5    1e-3    0.01    0.1     0.2            3e-4     0.36
+///
+/// From about 2e-23 (f64: 1e-162) on the squares are 0 and the centres coincide: Flow::grazing.
+/// Squares that overflow (distances from 1.9e19 on, f64: 1.4e154) are infinite: Flow::fake,
+/// whatever the radii.
 template <class Real>
 struct ContactOf {
   using FlowWord = std::conditional_t<sizeof(Real) == 4, std::uint32_t, std::uint64_t>;

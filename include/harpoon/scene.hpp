@@ -14,8 +14,9 @@
 ///
 /// Bodies with a coordinate or radius that is not finite, a coordinate beyond +-`kSceneLimit`, or a
 /// radius below 0 or beyond `kSceneLimit` take part in nothing and are reported by id; everything
-/// else stays exact. Radius 0 is legal. Cost grows as n log n + contacts, memory with bodies and
-/// contacts, never with the volume of the world.
+/// else stays exact. Radius 0 is legal. Cost grows as n log n + contacts but for the worlds that
+/// docs/scene.md names ("Where it is not"), memory with bodies and contacts, never with the volume
+/// of the world.
 
 #include <cstddef>
 #include <cstdint>
@@ -156,7 +157,7 @@ class HARPOON_API Workspace {
 
 /// Where the time of a call went, in nanoseconds of wall clock.
 struct StageTimes {
-  double survey_ns = 0;    ///< bounds, validity, choice of grids
+  double survey_ns = 0;    ///< bounds, validity, choice of grids (of boxes part of order_ns)
   double order_ns = 0;     ///< bodies into space order
   double search_ns = 0;    ///< candidate pairs
   double contacts_ns = 0;  ///< exact test, contacts, output

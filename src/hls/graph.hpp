@@ -1,7 +1,7 @@
 #pragma once
 
 // The dataflow graph that a collider call records: nodes in topological order, equal expressions
-// shared. It knows nothing of cycles (schedule.hpp) or of SystemVerilog (emit.hpp).
+// shared. It knows nothing of cycles (pipeline.hpp) or of SystemVerilog (emit.hpp).
 
 #include <array>
 #include <compare>

@@ -332,7 +332,7 @@ TEST_F(Demo, WritesEverythingAndNoProgressInAPipe) {
   const std::string slot = "id=\"harpoon-data\">";
   const std::size_t begin = page.find(slot) + slot.size();
   const Json data = Json::parse(page.substr(begin, page.find("</script>", begin) - begin));
-  EXPECT_EQ(data.at("schema"), 1);
+  EXPECT_EQ(data.at("schema"), 2);
   EXPECT_EQ(data.at("figures").size(), 2U);
 }
 

@@ -2,6 +2,7 @@
 
 #include <gtest/gtest.h>
 
+#include <algorithm>
 #include <csignal>
 #include <filesystem>
 
@@ -232,11 +233,23 @@ TEST(ReplayCommand, NamesTheLineOfADamagedFile) {
   EXPECT_TRUE(contains(f.err, "line 3")) << f.err;
 }
 
+// The table, which goes to standard error beside JSON.
+std::size_t widest_line(const std::string& text) {
+  std::size_t widest = 0;
+  for (std::size_t begin = 0; begin < text.size();) {
+    const std::size_t end = std::min(text.find('\n', begin), text.size());
+    widest = std::max(widest, end - begin);
+    begin = end + 1;
+  }
+  return widest;
+}
+
 TEST(BenchOde, EveryKindOfWorldAndSpaceIsIdentical) {
   for (const char* kind : {"packed", "gas", "mixed", "asleep"}) {
     const Finished f = run_piped(
         {"bench", "ode", "--kind", kind, "--geoms", "600", "--seconds", "0", "--json", "-"});
     ASSERT_EQ(f.exit_code, 0) << f.err;
+    EXPECT_LE(widest_line(f.err), 80U) << f.err;
     const Json results = Json::parse(f.out).at("results");
     ASSERT_EQ(results.size(), 4U);
     for (const Json& row : results) {

@@ -4,6 +4,8 @@
 #include <stdlib.h>
 
 #include <CLI/CLI.hpp>
+#include <algorithm>
+#include <random>
 
 #include "apps/device_catalog.hpp"
 #include "apps/exit_code.hpp"
@@ -37,6 +39,96 @@ TEST(Table, AlignsColumnsAndEndsLinesClean) {
             "name     ns  note\n"
             "a       1.5  µs\n"
             "longer  100  \n");
+}
+
+std::size_t widest_line(const std::string& text) {
+  std::size_t widest = 0;
+  for (std::size_t begin = 0; begin < text.size();) {
+    const std::size_t end = text.find('\n', begin);
+    const std::string line = text.substr(begin, end - begin);
+    widest = std::max(widest,
+                      static_cast<std::size_t>(std::count_if(line.begin(), line.end(), [](char c) {
+                        return (static_cast<unsigned char>(c) & 0xC0) != 0x80;
+                      })));
+    begin = end + 1;
+  }
+  return widest;
+}
+
+TEST(Table, BreaksTextsWhereItWouldBeTooWide) {
+  const std::string what =
+      "f32 records, 8000000 pairs, 2 thread(s): share of the copy bandwidth, 30";
+  const std::string table =
+      format_table(kPlain, {{"target"}, {"measured", true}, {"by itself"}},
+                   {{what, "1.25", "harpoon bench pairs --count 8000000 --precision f32 --copy"},
+                    {"short", "100", "x"}});
+  EXPECT_LE(widest_line(table), kLineWidth);
+  // None is broken.
+  for (const char* word : {"records,", "8000000", "thread(s):", "bandwidth,", "--precision"}) {
+    EXPECT_NE(table.find(word), std::string::npos) << word;
+  }
+  EXPECT_NE(table.find("short"), std::string::npos);
+}
+
+TEST(Table, BreaksTitlesAboveNumbers) {
+  std::vector<Column> columns = {{"program"}};
+  std::vector<Cell> row = {"a name"};
+  for (int i = 0; i < 9; ++i) {
+    columns.push_back({"collision: stock ms", true});
+    row.emplace_back("1234.56");
+  }
+  const std::string table = format_table(kPlain, columns, {row});
+  EXPECT_LE(widest_line(table), kLineWidth);
+  EXPECT_EQ(table.find("1234.5 "), std::string::npos);
+}
+
+TEST(Table, AnyTextKeepsToTheWidthOfATerminal) {
+  std::mt19937 engine(11);
+  int wide = 0;
+  for (int trial = 0; trial < 500; ++trial) {
+    const std::size_t columns = 1 + engine() % 6;
+    std::vector<Column> titles;
+    std::vector<std::vector<Cell>> rows(1 + engine() % 4);
+    std::size_t natural = 0;
+    for (std::size_t c = 0; c < columns; ++c) {
+      const bool is_number = engine() % 2 == 0;
+      titles.push_back({is_number ? "a title of some words" : "text", is_number});
+      for (std::vector<Cell>& row : rows) {
+        std::string text;
+        const std::size_t words = is_number ? 1 : 1 + engine() % 12;
+        for (std::size_t w = 0; w < words; ++w) {
+          text += (w == 0 ? "" : " ") + std::string(1 + engine() % (is_number ? 9 : 30), 'x');
+        }
+        natural += text.size();
+        row.emplace_back(text);
+      }
+    }
+    wide += natural > kLineWidth * rows.size();
+    const std::string table = format_table(kPlain, titles, rows);
+    EXPECT_LE(widest_line(table), kLineWidth) << "trial " << trial << "\n" << table;
+    std::size_t drawn = 0;
+    for (const std::vector<Cell>& row : rows) {
+      for (const Cell& cell : row) {
+        drawn += static_cast<std::size_t>(std::count(cell.text.begin(), cell.text.end(), 'x'));
+      }
+    }
+    std::size_t titled = 0;
+    for (const Column& column : titles) {
+      titled += static_cast<std::size_t>(std::count(column.title.begin(), column.title.end(), 'x'));
+    }
+    EXPECT_EQ(std::count(table.begin(), table.end(), 'x'),
+              static_cast<std::ptrdiff_t>(drawn + titled));
+  }
+  EXPECT_GT(wide, 50);
+}
+
+TEST(Lines, AreBrokenAtSpacesAndWithinWordsLastOfAll) {
+  using Lines = std::vector<std::string>;
+  EXPECT_EQ(broken_into_lines("", 5), Lines({""}));
+  EXPECT_EQ(broken_into_lines("one two three", 7), Lines({"one two", "three"}));
+  EXPECT_EQ(broken_into_lines("one two three", 6), Lines({"one", "two", "three"}));
+  EXPECT_EQ(broken_into_lines("abcdefgh", 3), Lines({"abc", "def", "gh"}));
+  EXPECT_EQ(broken_into_lines("µµµ µµ", 3), Lines({"µµµ", "µµ"}));
 }
 
 TEST(Table, ColoursOnlyWhereTheTerminalHasThem) {
@@ -176,17 +268,51 @@ TEST(DeviceCatalog, ZeroThreadsMeansAllAndNothingIsDoubled) {
   EXPECT_EQ(thread_counts({3, 1, 3}), (std::vector<unsigned>{1, 3}));
 }
 
+TEST(ResultTable, KeepsToTheWidthOfATerminal) {
+  bench::ResultSet results;
+  for (const char* device : {"ode", "ode (Figure 5)", "cpu", "afu"}) {
+    for (const std::size_t count : {10UL, 90000UL, 2147483648UL}) {
+      const double ns = 1234.56 * static_cast<double>(count);
+      results.rows.push_back({{device, "f64", 1024, "records", device[0] == 'a', 64},
+                              bench::PairType::real,
+                              {count, {ns, ns, ns, 10 * ns, 3, ns}, 30},
+                              123.45,
+                              {100, 130}});
+    }
+  }
+  results.notes = {std::string(200, 'n')};
+  EXPECT_LE(widest_line(describe_results(kPlain, results)), kLineWidth);
+  const std::string targets = describe_targets(
+      kPlain,
+      {{"f32 indexed, 100000 spheres, 1000000 random mixed pairs: times faster than dCollide",
+        12.5,
+        {12, 13},
+        12,
+        "harpoon bench pairs --device cpu --format indexed --type mixed --count 1000000 "
+        "--precision f32"},
+       {"f32 records, 1000000 pairs: two threads against one (at 85 % of 30.5 GB/s of copying)",
+        1,
+        {0.5, 3},
+        1.7,
+        "harpoon bench pairs --count 10"}});
+  EXPECT_LE(widest_line(targets), kLineWidth);
+  EXPECT_NE(targets.find("pass"), std::string::npos);
+  EXPECT_NE(targets.find("too noisy"), std::string::npos);
+}
+
 TEST(ResultTable, OfASweepShowsTenCountsWithTheLast) {
   bench::ResultSet results;
   for (std::size_t count = 10; count <= 1000; count += 10) {
     results.rows.push_back({{"cpu", "f32", 1, "records", false, 64},
                             bench::PairType::real,
-                            {count, {100, 90, 95, 110, 3}, 30},
-                            2});
+                            {count, {100, 90, 95, 110, 3, 90}, 30},
+                            2,
+                            {2, 2}});
   }
   results.notes = {"A note."};
   const std::string text = describe_results(kPlain, results);
-  EXPECT_EQ(std::count(text.begin(), text.end(), '\n'), 1 + 10 + 1 + 1);
+  // Title, rows, what the columns are (two lines), clock, load, note.
+  EXPECT_EQ(std::count(text.begin(), text.end(), '\n'), 1 + 10 + 2 + 1 + 1 + 1);
   EXPECT_NE(text.find(" 1000 "), std::string::npos);
   EXPECT_NE(text.find("A note.\n"), std::string::npos);
 }

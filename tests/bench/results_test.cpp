@@ -10,7 +10,7 @@ namespace harpoon::bench {
 namespace {
 
 Measurement measurement(std::size_t count, double ns) {
-  return {count, {ns, ns * 0.9, ns * 0.95, ns * 1.2, 5}, 50};
+  return {count, {ns, ns * 0.9, ns * 0.95, ns * 1.2, 5, ns}, 50};
 }
 
 ResultSet example() {
@@ -39,7 +39,19 @@ TEST(Results, SpeedUpRelatesToOdeAtTheSameCount) {
   EXPECT_EQ(results.rows[0].speedup_vs_ode, 1);
   EXPECT_EQ(results.rows[2].speedup_vs_ode, 5);
   EXPECT_EQ(results.rows[3].speedup_vs_ode, 10);
-  EXPECT_DOUBLE_EQ(results.rows[2].gb_per_s(), 32);
+  EXPECT_DOUBLE_EQ(results.rows[2].gb_per_s(), 32 / 0.9);
+  EXPECT_DOUBLE_EQ(results.rows[3].megabytes(), 20 * 64e-6);
+  EXPECT_DOUBLE_EQ(results.rows[2].speedup_range.low, 4.5);
+  EXPECT_DOUBLE_EQ(results.rows[2].speedup_range.high, 5 / 0.9);
+}
+
+TEST(Results, SlowRunsMoveNoSpeedUp) {
+  std::vector<Series> series = {
+      {{kOdeDevice, "f64", 1, "geoms", false, 128}, {measurement(10, 100)}},
+      {{"cpu", "f32", 1, "records", false, 64}, {measurement(10, 20)}}};
+  series[1].points[0].ns.median = 5000;
+  series[1].points[0].ns.high = 90000;
+  EXPECT_EQ(to_rows(series, PairType::real)[1].speedup_vs_ode, 5);
 }
 
 TEST(Results, WithoutOdeThereIsNoSpeedUp) {
@@ -51,8 +63,10 @@ TEST(Results, WithoutOdeThereIsNoSpeedUp) {
 TEST(Results, TheBestCopyIsTheMachinesBandwidth) {
   const ResultSet results = example();
   ASSERT_EQ(results.copy.size(), 1U);
-  EXPECT_DOUBLE_EQ(results.copy[0].memcpy_gb_per_s, 6.4);
-  EXPECT_DOUBLE_EQ(results.copy[0].best_gb_per_s(), 8);
+  EXPECT_DOUBLE_EQ(results.copy[0].memcpy_gb_per_s, 6.4 / 0.9);
+  EXPECT_DOUBLE_EQ(results.copy[0].best_gb_per_s(), 8 / 0.9);
+  EXPECT_DOUBLE_EQ(results.copy[0].best_range.low, 8);
+  EXPECT_DOUBLE_EQ(results.copy[0].best_range.high, 8 / 0.9);
 }
 
 TEST(Results, JsonHasThePromisedFieldsWithThePromisedTypes) {
@@ -68,7 +82,8 @@ TEST(Results, JsonHasThePromisedFieldsWithThePromisedTypes) {
     for (const char* field : {"threads", "count", "runs"}) {
       EXPECT_TRUE(row.at(field).is_number_unsigned()) << field;
     }
-    for (const char* field : {"ns_per_pair", "ns_per_pair_min", "speedup_vs_ode", "gb_per_s"}) {
+    for (const char* field : {"ns_per_pair", "ns_per_pair_min", "speedup_vs_ode", "speedup_low",
+                              "speedup_high", "gb_per_s", "megabytes"}) {
       EXPECT_TRUE(row.at(field).is_number()) << field;
     }
     EXPECT_TRUE(row.at("modelled").is_boolean());
@@ -78,7 +93,10 @@ TEST(Results, JsonHasThePromisedFieldsWithThePromisedTypes) {
   for (const char* field : {"cpu", "os", "kernel", "compiler", "instruction_set", "ode"}) {
     EXPECT_TRUE(root.at("machine").at(field).is_string()) << field;
   }
-  EXPECT_EQ(root.at("copy_bandwidth")[0].at("best_gb_per_s"), 8);
+  EXPECT_NEAR(root.at("copy_bandwidth")[0].at("best_gb_per_s").get<double>(), 8 / 0.9, 1e-9);
+  for (const char* field : {"before", "after", "waiting", "busy"}) {
+    EXPECT_TRUE(root.at("load").contains(field)) << field;
+  }
 }
 
 TEST(Results, CsvHasOneCellPerColumn) {
@@ -102,6 +120,7 @@ TEST(Machine, IsDescribed) {
   EXPECT_FALSE(machine.cpu.empty());
   EXPECT_GE(machine.cores, 1U);
   EXPECT_GT(machine.memory_gb, 0.1);
+  EXPECT_GE(machine.cache_mb, 0);
   EXPECT_NE(machine.kernel, "unknown");
   EXPECT_FALSE(machine.instruction_set.empty());
   EXPECT_FALSE(build_commit().empty());

@@ -16,7 +16,7 @@ ROOT = pathlib.Path(__file__).resolve().parent.parent.parent
 sys.path.insert(0, str(ROOT))
 
 from tools.lint import __main__ as lint  # noqa: E402
-from tools.lint import programs, rooms, structure, text  # noqa: E402
+from tools.lint import programs, rooms, structure, text, unused  # noqa: E402
 from tools.lint.tree import Tree  # noqa: E402
 
 GUARD = "#pragma once\n"
@@ -31,6 +31,21 @@ def picture_page(table: dict) -> str:
         f"| `{room}` | {'anything' if used == rooms.ANY else ', '.join(f'`{u}`' for u in used)} |\n"
         for room, used in table.items())
     return f"```\n{drawing}\n```\n{rows}"
+
+
+def drawn_tree(table: dict) -> dict[str, str]:
+    """A tree in which every room is there and every edge is used once."""
+    files = {}
+    for room, used in table.items():
+        files[f"{room}/a.hpp"] = GUARD
+        named = [] if used == rooms.ANY else sorted(used)
+        files[f"{room}/b.cpp"] = "".join(f'#include "{other}/a.hpp"\n' for other in named)
+    return files
+
+
+DRAWN = drawn_tree(rooms.ALLOWED)
+SOME_ROOM = "src/device/cpu"
+SOME_EDGE = f'#include "{sorted(rooms.ALLOWED[SOME_ROOM])[0]}/a.hpp"\n'
 
 
 # rule: list of (what, bad tree, file that is reported, good tree)
@@ -89,6 +104,93 @@ CASES = {
          {"src/base/a.cpp": "\n", "tests/twins.txt": "# why\nsrc/base/a.cpp: tested by b\n"}),
         ("a waiver for a file that is gone", {"tests/twins.txt": "src/base/a.cpp: tested by b\n"},
          "tests/twins.txt", {"tests/twins.txt": "# none\n"}),
+    ],
+    unused.drawn: [
+        ("an edge that nothing uses",
+         {**DRAWN, f"{SOME_ROOM}/b.cpp": DRAWN[f"{SOME_ROOM}/b.cpp"].replace(SOME_EDGE, "")},
+         "tools/lint/rooms.py", DRAWN),
+        ("an edge that only a comment names",
+         {**DRAWN, f"{SOME_ROOM}/b.cpp":
+          DRAWN[f"{SOME_ROOM}/b.cpp"].replace(SOME_EDGE, f"// {SOME_EDGE}")},
+         "tools/lint/rooms.py", DRAWN),
+        ("a room that is not there",
+         {name: content for name, content in DRAWN.items() if not name.startswith("examples/")},
+         "tools/lint/rooms.py", DRAWN),
+        ("an edge that CMake uses",
+         {**DRAWN, "sim/b.cpp": DRAWN["sim/b.cpp"].replace('#include "rtl/a.hpp"\n', "")},
+         "tools/lint/rooms.py",
+         {**DRAWN, "sim/b.cpp": DRAWN["sim/b.cpp"].replace('#include "rtl/a.hpp"\n', ""),
+          "sim/CMakeLists.txt": "set(rtl ${PROJECT_SOURCE_DIR}/rtl)\n"}),
+    ],
+    unused.unused: [
+        ("a header that is not included", {"src/base/a.hpp": GUARD + "// see base/a.hpp\n"},
+         "src/base/a.hpp",
+         {"src/base/a.hpp": GUARD, "src/base/b.cpp": '#include "base/a.hpp"\n',
+          "src/CMakeLists.txt": "add_library(x base/b.cpp)\n"}),
+        ("a header that only a page names",
+         {"src/base/a.hpp": GUARD, "README.md": "see `src/base/a.hpp`\n"}, "src/base/a.hpp",
+         {"src/base/a.inl": "\n", "src/base/b.cpp": '#include "a.inl"\n',
+          "src/CMakeLists.txt": "add_library(x base/b.cpp)\n"}),
+        ("a source that is not built",
+         {"src/base/a.cpp": "\n", "src/CMakeLists.txt": "# add_library(x base/a.cpp)\n"},
+         "src/base/a.cpp",
+         {"src/base/a.cpp": "\n", "src/CMakeLists.txt": "add_library(x base/a.cpp)\n"}),
+        ("a source of the same name elsewhere",
+         {"src/base/a.cpp": "\n", "src/scene/a.cpp": "\n",
+          "src/CMakeLists.txt": "add_library(x base/a.cpp)\n"}, "src/scene/a.cpp",
+         {"apps/a.cpp": "\n", "tests/CMakeLists.txt": "add(${PROJECT_SOURCE_DIR}/apps/a.cpp)\n"}),
+        ("a test that is not registered",
+         {"tests/base/a_test.cpp": "\n", "tests/base/CMakeLists.txt": "harpoon_test(NAME b)\n"},
+         "tests/base/a_test.cpp",
+         {"tests/base/a_test.cpp": "\n",
+          "tests/base/CMakeLists.txt": "harpoon_test(NAME a SOURCES a_test.cpp)\n"}),
+        ("an example that is not built",
+         {"examples/a.cpp": "\n", "examples/CMakeLists.txt": "foreach(example b)\n"},
+         "examples/a.cpp",
+         {"examples/a.cpp": "\n", "examples/a.txt": "out\n",
+          "examples/CMakeLists.txt": "foreach(example a)\n"}),
+        ("a module that is not instantiated", {"rtl/a.sv": "module a (); endmodule\n"}, "rtl/a.sv",
+         {"rtl/a.sv": "module a (); endmodule\n", "sim/CMakeLists.txt": "verilate(TOP a)\n"}),
+        ("an included file that is not included",
+         {"rtl/formal/a.svh": "\n", "rtl/formal/prove.py": 'PROOFS = {"b": 2}  # a\n',
+          "CMakeLists.txt": "add_test(rtl/formal/prove.py)\n"}, "rtl/formal/a.svh",
+         {"rtl/formal/a.svh": "\n", "rtl/formal/prove.py": 'PROOFS = {"a": 2}\n',
+          "CMakeLists.txt": "add_test(rtl/formal/prove.py)\n"}),
+        ("a script that nobody runs", {"tools/a.py": "print(1)\n", "dev": "# tools/a.py\n"},
+         "tools/a.py", {"tools/a.py": "print(1)\n", "dev": "python3 -m tools.a\n"}),
+        ("a Python module that nobody imports",
+         {"tools/a.py": "\n", "tools/b.py": "import os\n", "dev": "python3 tools/b.py\n"},
+         "tools/a.py",
+         {"tools/a.py": "\n", "tools/b.py": "from tools import a\n",
+          "dev": "python3 tools/b.py\n"}),
+        ("TypeScript that nobody imports",
+         {"web/src/a.ts": "export {};\n", "web/src/main.ts": 'import "./b.ts";\n',
+          "web/build.mjs": 'bundle("src/main.ts");\n', "web/package.json": '"node build.mjs"\n'},
+         "web/src/a.ts",
+         {"web/src/a.ts": "export {};\n", "web/src/main.ts": 'import "./a.ts";\n',
+          "web/build.mjs": 'bundle("src/main.ts");\n', "web/package.json": '"node build.mjs"\n'}),
+        ("tests of a page that no pattern finds",
+         {"web/test/unit/a.spec.ts": "\n", "web/test/run": "run test/unit/*.test.ts\n",
+          "web/CMakeLists.txt": "add_test(test/run)\n"}, "web/test/unit/a.spec.ts",
+         {"web/test/unit/a.test.ts": "\n", "web/test/run": "run test/unit/*.test.ts\n",
+          "web/CMakeLists.txt": "add_test(test/run)\n"}),
+        ("a page that is not linked", {"docs/a.md": "x\n", "README.md": "docs/a.md\n"}, "docs/a.md",
+         {"docs/a.md": "x\n", "docs/b.svg": "x\n",
+          "README.md": "[a](docs/a.md) ![b](docs/b.svg)\n"}),
+        ("a corpus without a target", {"tests/fuzz/corpus/a/one": "x\n"}, "tests/fuzz/corpus/a/one",
+         {"tests/fuzz/corpus/a/one": "x\n", "tests/fuzz/a.cpp": "\n",
+          "tests/fuzz/CMakeLists.txt": "fuzz(a SOURCES a.cpp)\n"}),
+        ("a waiver without a reason",
+         {"src/base/a.hpp": GUARD, "tools/lint/unused.txt": "src/base/a.hpp:\n"},
+         "tools/lint/unused.txt",
+         {"src/base/a.hpp": GUARD, "tools/lint/unused.txt": "src/base/a.hpp: read by hand\n"}),
+        ("a waiver for a file that is gone", {"tools/lint/unused.txt": "src/base/a.hpp: why\n"},
+         "tools/lint/unused.txt", {"tools/lint/unused.txt": "# none\n"}),
+        ("a waiver for a file that is used",
+         {"src/base/a.hpp": GUARD, "src/base/b.cpp": '#include "base/a.hpp"\n',
+          "src/CMakeLists.txt": "add_library(x base/b.cpp)\n",
+          "tools/lint/unused.txt": "src/base/a.hpp: why\n"},
+         "tools/lint/unused.txt", {"tools/lint/unused.txt": "# none\n"}),
     ],
     text.outside: [
         ("a private absolute path", {"dev": f"cat {PRIVATE}\n"}, "dev",

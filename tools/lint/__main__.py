@@ -9,11 +9,12 @@ import pathlib
 import sys
 import time
 
-from tools.lint import programs, structure, text
+from tools.lint import programs, structure, text, unused
 from tools.lint.tree import Tree
 
-QUICK = (structure.edges, structure.naming, structure.picture, structure.twins, text.outside,
-         text.leftovers, text.clean, text.streams, programs.formatting, programs.scripts)
+QUICK = (structure.edges, structure.naming, structure.picture, structure.twins, unused.drawn,
+         unused.unused, text.outside, text.leftovers, text.clean, text.streams,
+         programs.formatting, programs.scripts)
 SLOW = (programs.verilog, programs.headers, programs.tidy)
 
 

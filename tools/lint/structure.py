@@ -10,7 +10,7 @@ INCLUDE = re.compile(r'^\s*#\s*include\s*([<"])([^>"]+)[>"]')
 SEARCH_FOLDERS = ("", "include", "src", "tests")
 
 
-def _resolve(tree: Tree, source: str, target: str) -> str | None:
+def resolve(tree: Tree, source: str, target: str) -> str | None:
     """The project's file that an include names, or None when it is not one of them."""
     known = set(tree.files)
     beside = (pathlib.PurePosixPath(source).parent / target).as_posix()
@@ -34,7 +34,7 @@ def _edges_of_file(tree: Tree, name: str, room: str):
         if not match:
             continue
         target = match[2]
-        used = _resolve(tree, name, target)
+        used = resolve(tree, name, target)
         if used is None:
             yield from _third_party(name, number, room, match[1], target)
             continue

@@ -22,6 +22,8 @@ const machine = object({
   cpu: text,
   cores: count,
   memory_gb: not_negative,
+  /** The largest cache; 0 where the machine does not tell. */
+  cache_mb: not_negative,
   os: text,
   kernel: text,
   compiler: text,
@@ -47,8 +49,9 @@ const result = object({
   ns_per_pair_min: positive,
   /** True: a time computed from a model of the device; false: a clock was read. */
   modelled: flag,
-  /** ODE's ns_per_pair on the same pairs over this one; 1 for ODE itself. */
+  /** ODE's ns_per_pair_min on the same pairs over this one; 1 for ODE itself. */
   speedup_vs_ode: not_negative,
+  /** Of the fastest run. */
   gb_per_s: not_negative,
   runs: count,
 });
@@ -95,12 +98,18 @@ const diamond = object({
 /** What the paper says, what this run found, and how the two stand to each other. */
 const claim = object({ paper: text, ours: text, verdict: text });
 
+/** A number that a reader should leave with; measured or modelled, never both in one. */
+const headline = object({ value: text, label: text, detail: text, modelled: flag });
+
 export const report = object({
-  schema: one_of(1),
+  schema: one_of(2),
   title: text,
   /** The experiment in a sentence. */
   experiment: text,
+  headlines: list(headline),
   machine,
+  /** How busy the machine was with other things, in a sentence. */
+  load_text: text,
   commit: text,
   date,
   /** The command that repeats the experiment. */

@@ -3,13 +3,12 @@
 import { results_csv } from "./csv.ts";
 import { button, choice, download_button, h } from "./dom.ts";
 import { three_digits, time, whole } from "./format.ts";
-import { key_figures } from "./key_figures.ts";
 import type { Report, Result } from "./schema.ts";
 import { choose_theme } from "./theme.ts";
 
 export function header(report: Report): HTMLElement {
   const themes = { auto: "system", light: "light", dark: "dark" };
-  const tiles = key_figures(report).map(({ value, label, detail, modelled }) =>
+  const tiles = report.headlines.map(({ value, label, detail, modelled }) =>
     h(
       "div",
       { class: modelled ? "tile modelled" : "tile" },
@@ -31,15 +30,20 @@ export function header(report: Report): HTMLElement {
   );
 }
 
+// What a reader came for is next to the name, so that it is on a narrow screen too.
 const kColumns = [
   "device",
-  "threads",
+  "speed-up over ODE",
   "ns per pair",
   "fastest run",
-  "speed-up over ODE",
   "GB/s",
+  "threads",
   "runs",
 ] as const;
+
+function name_of({ device, precision, threads }: Result): string {
+  return `${device} ${precision}${threads > 1 ? `, ${threads} threads` : ""}`;
+}
 
 function result_row(result: Result, largest_speedup: number): HTMLTableRowElement {
   const kind = result.modelled ? "modelled" : "measured";
@@ -49,18 +53,12 @@ function result_row(result: Result, largest_speedup: number): HTMLTableRowElemen
   return h(
     "tr",
     { class: result.device === "ode" ? "baseline" : undefined },
-    h(
-      "th",
-      { scope: "row" },
-      `${result.device} ${result.precision}`,
-      " ",
-      h("small", { class: kind }, kind),
-    ),
-    number(whole(result.threads)),
+    h("th", { scope: "row" }, name_of(result), " ", h("small", { class: kind }, kind)),
+    h("td", { class: "number speedup" }, bar, `${three_digits(result.speedup_vs_ode)}×`),
     number(three_digits(result.ns_per_pair)),
     number(three_digits(result.ns_per_pair_min)),
-    h("td", { class: "number speedup" }, bar, `${three_digits(result.speedup_vs_ode)}×`),
     number(three_digits(result.gb_per_s)),
+    number(whole(result.threads)),
     number(whole(result.runs)),
   );
 }
@@ -96,7 +94,9 @@ export function results_section(report: Report): HTMLElement {
     h(
       "p",
       { class: "soft" },
-      "Median over the runs. Each group is one batch of the same pairs for every device.",
+      "Each group is one batch of the same pairs for every device. ns per pair is the median " +
+        "over the runs; speed-up and GB/s are those of the fastest run, which other programs " +
+        "cannot move.",
     ),
     h(
       "div",
@@ -149,6 +149,7 @@ export function machine_section(report: Report): HTMLElement {
     ["processor", machine.cpu],
     ["cores", whole(machine.cores)],
     ["memory", `${three_digits(machine.memory_gb)} GB`],
+    ["largest cache", machine.cache_mb > 0 ? `${three_digits(machine.cache_mb)} MB` : "unknown"],
     ["instruction set", machine.instruction_set],
     ["system", machine.os],
     ["kernel", machine.kernel],
@@ -157,6 +158,7 @@ export function machine_section(report: Report): HTMLElement {
     ["Harpoon", machine.harpoon],
     ["commit", report.commit],
     ["date", report.date.replace("T", " ").replace(/\.\d+/, "").replace("Z", " UTC")],
+    ["load", report.load_text],
     ["reading the clock", `${time(report.timer_overhead_ns)}, reported apart`],
   ];
   const list = facts.map(([name, value]) => h("div", {}, h("dt", {}, name), h("dd", {}, value)));

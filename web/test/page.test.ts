@@ -72,7 +72,13 @@ test("a report opens without complaint and asks nobody for anything", async () =
   assert.equal(await page.locator(".lead").textContent(), report.experiment);
   assert.equal(await page.locator(".error, .problem").count(), 0);
   const text = await page.locator("main").innerText();
-  const said = [...Object.values(report.machine).map(String), report.commit, report.command];
+  const said = [
+    ...Object.values(report.machine).map(String),
+    ...report.headlines.flatMap(({ value, label, detail }) => [value, label, detail]),
+    report.load_text,
+    report.commit,
+    report.command,
+  ];
   for (const part of said.concat(
     report.claims.flatMap((c) => Object.values(c)),
     report.notes,
@@ -90,7 +96,7 @@ test("the table shows every result, and names the modelled ones", async () => {
   const cells = rows.map((row) => row.split("\t").map((cell) => cell.trim()));
   for (const result of report.results) {
     const found = cells.some(
-      ([device, threads, ns, , speedup]) =>
+      ([device, speedup, ns, , , threads]) =>
         device?.startsWith(`${result.device} ${result.precision}`) &&
         device.endsWith(result.modelled ? "modelled" : "measured") &&
         Number(threads) === result.threads &&
@@ -294,11 +300,27 @@ test("CSV files hold the data, and the command is copied", async () => {
 });
 
 test("no width makes the page scroll sideways", async () => {
-  for (const width of [400, 700, 1024, 1600]) {
+  for (const width of [360, 390, 700, 1024, 1600]) {
     const { page } = await open(browser, file, width);
     assert.equal(await page.evaluate(() => document.documentElement.scrollWidth), width);
     await page.context().close();
   }
+});
+
+test("on a telephone every speed-up is on the screen", async () => {
+  const width = 390;
+  const { page } = await open(browser, file, width);
+  const inside = async (cell: Locator): Promise<boolean> => {
+    const box = await cell.boundingBox();
+    return box !== null && box.width > 0 && box.x >= 0 && box.x + box.width <= width;
+  };
+  const cells = await page.locator(".results td.speedup, .results th:nth-child(2)").all();
+  assert.equal(cells.length, report.results.length + 1);
+  for (const cell of cells) assert.ok(await inside(cell), await cell.innerText());
+  const first = page.locator(".tile strong").first();
+  const box = await first.boundingBox();
+  assert.ok(box && (await inside(first)) && box.y + box.height <= 844, "the first headline");
+  await page.context().close();
 });
 
 test("bad data is named on the page, which is never blank", async () => {

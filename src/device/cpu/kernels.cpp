@@ -132,14 +132,38 @@ HWY_INLINE void stream_lines(const unsigned char* from, std::size_t bytes, unsig
   }
 }
 
+constexpr std::uintptr_t kPage = 4096;
+
+/// The place in `area`, which has a page to spare, that is a quarter of a page from `pairs` in the
+/// bits of an address below a page (blocks of f32 lie half a page apart, so that is the middle). By
+/// these bits processors tell loads from the stores before them: where both lie at the same ones,
+/// loads of pairs wait for stores of contacts that they have nothing to do with.
+HWY_INLINE unsigned char* apart_from(const void* pairs, unsigned char* area,
+                                     std::size_t alignment) {
+  const std::uintptr_t wanted = reinterpret_cast<std::uintptr_t>(pairs) + kPage / 4;
+  const std::uintptr_t shift = (wanted - reinterpret_cast<std::uintptr_t>(area)) % kPage;
+  return area + shift / alignment * alignment;
+}
+
+/// Called for every block of output in turn, touches each page of it once, a page ahead. A store
+/// around the caches asks for the translation of its page only when its turn comes, and nothing
+/// looks over the end of a page for it: untouched, every page costs a walk of the page table.
+template <std::uintptr_t block_bytes>
+HWY_INLINE void touch_next_page(const unsigned char* block) {
+  const auto at = reinterpret_cast<std::uintptr_t>(block);
+  if (at % kPage < block_bytes) hwy::Prefetch(reinterpret_cast<const char*>(at + kPage));
+}
+
 /// Blocks of contacts are made in a buffer and sent on in whole cache lines. Where the output does
 /// not start on a line, the buffer holds the skew: the bytes that share a line with the next block.
 ///
 ///   buffer  [ ... skew bytes | block of contacts ................. ]
 ///                ^ sent from here, as many bytes as the block has; the rest is the next skew
+///
+/// Not inlined: small batches would pay for its large frame.
 template <class Real>
-std::size_t pairs_streamed(const SpherePairOf<Real>* pairs, std::size_t count,
-                           ContactOf<Real>* contacts) {
+HWY_NOINLINE std::size_t pairs_streamed(const SpherePairOf<Real>* pairs, std::size_t count,
+                                        ContactOf<Real>* contacts) {
   constexpr std::size_t kLine = 64;
   constexpr std::size_t kBlock = 4 * kMaxLanes;
   constexpr std::size_t kBlockBytes = kBlock * sizeof(ContactOf<Real>);
@@ -150,11 +174,13 @@ std::size_t pairs_streamed(const SpherePairOf<Real>* pairs, std::size_t count,
   std::size_t i = kHead;
   auto* to = reinterpret_cast<unsigned char*>(contacts + i);
   const std::size_t skew = reinterpret_cast<std::uintptr_t>(to) % kLine;
-  HWY_ALIGN unsigned char buffer[kLine + kBlockBytes];
+  HWY_ALIGN unsigned char area[kLine + kBlockBytes + kPage];
+  unsigned char* const buffer = apart_from(pairs + i, area, kLine);
   auto* const block = reinterpret_cast<ContactOf<Real>*>(buffer + kLine);
   unsigned char* const begin = buffer + kLine - skew;
   std::memcpy(begin, to - skew, skew);
   for (; i + kBlock <= count; i += kBlock, to += kBlockBytes) {
+    touch_next_page<kBlockBytes>(to);
     hits += collide_vectors(pairs + i, kBlock / hn::Lanes(Tag<Real>()), block);
     stream_lines(begin, kBlockBytes, to - skew);
     std::memcpy(begin, begin + kBlockBytes, skew);

@@ -3,7 +3,6 @@ import { test } from "node:test";
 import { assign_styles, name_key, type SeriesName } from "../../src/colours.ts";
 import { figure_csv, results_csv, to_csv } from "../../src/csv.ts";
 import { three_digits, tick_number, time, unit_of, whole } from "../../src/format.ts";
-import { break_even, key_figures } from "../../src/key_figures.ts";
 import { count_points, diamond_points } from "../../src/lattice.ts";
 import { plot_data } from "../../src/plot_data.ts";
 import { type Figure, parse_report } from "../../src/schema.ts";
@@ -140,34 +139,6 @@ function figure_of(counts: number[], ode_us: number[], ours_us: number[]): Figur
   ];
   return { id: "6", title: "", series, references: [{ label: "paper", ns_per_pair: 86 }] };
 }
-
-test("the break-even point is where a series is the slower one for the last time", () => {
-  assert.deepEqual(break_even(figure_of([10, 20, 30], [1, 2, 3], [2, 2, 2])), {
-    count: 20,
-    label: "ours",
-    at_start: false,
-  });
-  assert.deepEqual(break_even(figure_of([10, 20], [1, 2], [0.5, 1])), {
-    count: 10,
-    label: "ours",
-    at_start: true,
-  });
-  assert.equal(break_even(figure_of([10, 20], [1, 2], [0.5, 3])), undefined);
-});
-
-test("key figures keep measured and modelled apart", () => {
-  const figures = key_figures(report);
-  assert.deepEqual(
-    figures.map(({ value }) => value),
-    ["9.72×", "13.0×", "≤ 10", "81.0 GB/s", "1.25×"],
-  );
-  assert.deepEqual(
-    figures.map(({ modelled }) => modelled),
-    [false, false, false, false, true],
-  );
-  assert.ok(figures.every(({ modelled, label }) => label.includes("modelled") === modelled));
-  assert.deepEqual(key_figures({ ...report, results: [], figures: [] }), []);
-});
 
 test("plot data aligns series over all counts, in total and per collision", () => {
   const figure = figure_of([10, 20], [1, 2], [4]);

@@ -47,6 +47,11 @@ module afu_registers #(
   input  logic [3:0]  error_i,
   input  logic [31:0] state_i
 );
+  if (MaxInFlight < 2 || MaxInFlight > 128 || 1 << $clog2(MaxInFlight) != MaxInFlight)
+    $error("afu_registers: MaxInFlight must be a power of two, 2 to 128");
+  if (Spheres < 8 || Spheres > 65536 || 1 << $clog2(Spheres) != Spheres)
+    $error("afu_registers: Spheres must be a power of two, 8 to 65536");
+
   localparam int unsigned ID = $clog2(MaxInFlight);
 
   logic        write, read, done_q, ap_done_q;

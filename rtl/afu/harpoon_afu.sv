@@ -65,6 +65,15 @@ module harpoon_afu #(
   input  logic [$clog2(MaxInFlight)-1:0] m_axi_bid,
   input  logic [1:0]                     m_axi_bresp
 );
+  if (NumScpu != 1 && (NumScpu == 0 || NumScpu > 254 || NumScpu % 2 != 0))
+    $error("harpoon_afu: NumScpu must be 1 or even, up to 254");
+  if (Lanes < 1 || Lanes > 16)
+    $error("harpoon_afu: Lanes must be 1 to 16");
+  if (MaxInFlight < 2 || MaxInFlight > 128 || 1 << $clog2(MaxInFlight) != MaxInFlight)
+    $error("harpoon_afu: MaxInFlight must be a power of two, 2 to 128");
+  if (Spheres < 8 || Spheres > 65536 || 1 << $clog2(Spheres) != Spheres)
+    $error("harpoon_afu: Spheres must be a power of two, 8 to 65536");
+
   localparam int unsigned ID = $clog2(MaxInFlight);
 
   logic         enable, reset, spl_dsm_commit, afu_dsm_commit, barrier, puc_done, puc_idle;

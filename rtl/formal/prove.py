@@ -33,7 +33,7 @@ PROOFS = {
     "spl2_writer": (["spl2/spl2_writer.sv"], {"MaxInFlight": 4}, 2, 10),
     "spl2_page_table": (["spl2/spl2_page_table.sv"], {"MaxPages": 4}, 2, 5),
     "spl2": (["formal/spl2_stubs.svh", "spl2/spl2.sv"], {"MaxInFlight": 4, "MaxPages": 4}, 2, 15),
-    "puc": (["formal/puc_stubs.svh", "puc/puc.sv"], {}, 3, 20),
+    "puc": (["generated/scpu_pkg.sv", "formal/puc_stubs.svh", "puc/puc.sv"], {}, 3, 20),
     "afu_registers": (["afu/afu_registers.sv"], {"MaxInFlight": 4, "Spheres": 64}, 3, 6),
     "scpu_array": (["formal/pipeline_stubs.svh", "puc/scpu_array.sv"],
                    {"NumScpu": 4, "TagWidth": 2, "Depth": 8, "FirstTurn": 2, "LastTurn": 4,

@@ -49,10 +49,19 @@ module index_lanes #(
   output logic         index_error_o,
   output logic         idle_o
 );
+  if (Lanes < 1 || Lanes > 16)
+    $error("index_lanes: Lanes must be 1 to 16");
+  if (Spheres < 8 || Spheres > 65536 || 1 << $clog2(Spheres) != Spheres)
+    $error("index_lanes: Spheres must be a power of two, 8 to 65536");
+  if (Depth < 2 || 1 << $clog2(Depth) != Depth)
+    $error("index_lanes: Depth must be a power of two, at least 2");
+  if (Patience < 1)
+    $error("index_lanes: Patience must be at least 1");
+
   localparam int unsigned PER_LINE = harpoon_contract_pkg::INDEX_PAIRS_PER_LINE;
-  localparam int unsigned W        = $clog2(Spheres);
+  localparam int unsigned W        = (Spheres > 4) ? $clog2(Spheres) : 3;
   localparam int unsigned PORTS    = 2*Lanes + 4;
-  localparam int unsigned IDX      = 32*Lanes;
+  localparam int unsigned IDX      = (Lanes > 0) ? 32*Lanes : 32;
 
   // ---- table, filled row by row ----
   logic [W-3:0]         row_q;

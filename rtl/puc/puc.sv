@@ -45,6 +45,15 @@ module puc #(
   output logic [511:0] write_data_o,
   input  logic         write_idle_i
 );
+  if (NumScpu != 1 && (NumScpu == 0 || NumScpu > 254 || NumScpu % 2 != 0))
+    $error("puc: NumScpu must be 1 or even, up to 254");
+  if (Lanes < 1 || Lanes > 16)
+    $error("puc: Lanes must be 1 to 16");
+  if (Spheres < 8 || Spheres > 65536 || 1 << $clog2(Spheres) != Spheres)
+    $error("puc: Spheres must be a power of two, 8 to 65536");
+  if (1 << $clog2(Depth) != Depth || Depth <= scpu_pkg::Latency + 5)
+    $error("puc: Depth must be a power of two above the latency");
+
   localparam int unsigned PER_LINE = harpoon_contract_pkg::INDEX_PAIRS_PER_LINE;
 
   typedef enum logic [3:0] {

@@ -39,16 +39,25 @@ module scpu_array #(
   output logic [2*TagWidth-1:0] tags_o,
   output logic                  idle_o
 );
+  if (NumScpu != 1 && (NumScpu == 0 || NumScpu % 2 != 0))
+    $error("scpu_array: NumScpu must be 1 or even");
+  if (TagWidth < 1)
+    $error("scpu_array: TagWidth must be at least 1");
+  if (1 << $clog2(Depth) != Depth || Depth <= scpu_pkg::Latency + 5)
+    $error("scpu_array: Depth must be a power of two above the latency");
+  if (LastTurn < 4 || 1 << $clog2(LastTurn) != LastTurn)
+    $error("scpu_array: LastTurn must be a power of two, at least 4");
+  if (FirstTurn < 1 || FirstTurn > LastTurn || 1 << $clog2(FirstTurn) != FirstTurn)
+    $error("scpu_array: FirstTurn must be a power of two, 1 to LastTurn");
+  if (Patience < 1)
+    $error("scpu_array: Patience must be at least 1");
+
   localparam int unsigned SLOTS   = (NumScpu == 1) ? 1 : 2;
   localparam int unsigned COLUMNS = NumScpu / SLOTS;
   localparam int unsigned COL     = (COLUMNS > 1) ? $clog2(COLUMNS) : 1;
   localparam int unsigned BEAT    = $clog2(LastTurn);
   localparam int unsigned PAUSE   = $clog2(Patience + 1);
   localparam int unsigned RUN     = $clog2(scpu_pkg::Latency + 3);
-
-  if (NumScpu != 1 && NumScpu % 2 != 0) begin : gen_illegal
-    $error("NumScpu must be 1 or even");
-  end
 
   // ---- one beat in, for NumScpu = 1 in two halves ----
   logic                  issue, credit, last_half;

@@ -69,6 +69,11 @@ module spl2 #(
   input  logic [$clog2(MaxInFlight)-1:0] axi_bid_i,
   input  logic [1:0]                     axi_bresp_i
 );
+  if (MaxInFlight < 2 || MaxInFlight > 128 || 1 << $clog2(MaxInFlight) != MaxInFlight)
+    $error("spl2: MaxInFlight must be a power of two, 2 to 128");
+  if (MaxPages < 2 || MaxPages > 1024 || 1 << $clog2(MaxPages) != MaxPages)
+    $error("spl2: MaxPages must be a power of two, 2 to 1024");
+
   localparam int unsigned IDX = $clog2(MaxPages);
 
   typedef enum logic [3:0] {

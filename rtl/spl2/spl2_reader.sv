@@ -45,6 +45,9 @@ module spl2_reader #(
   input  logic [511:0]                   axi_rdata_i,
   input  logic [1:0]                     axi_rresp_i
 );
+  if (MaxInFlight < 2 || MaxInFlight > 128 || 1 << $clog2(MaxInFlight) != MaxInFlight)
+    $error("spl2_reader: MaxInFlight must be a power of two, 2 to 128");
+
   localparam int unsigned ID = $clog2(MaxInFlight);
 
   logic [511:0]           mem_q   [0:MaxInFlight-1];

@@ -42,6 +42,9 @@ module spl2_writer #(
   input  logic [$clog2(MaxInFlight)-1:0] axi_bid_i,
   input  logic [1:0]                     axi_bresp_i
 );
+  if (MaxInFlight < 2 || MaxInFlight > 128 || 1 << $clog2(MaxInFlight) != MaxInFlight)
+    $error("spl2_writer: MaxInFlight must be a power of two, 2 to 128");
+
   localparam int unsigned ID = $clog2(MaxInFlight);
 
   logic [57:0]            asked_q [0:MaxInFlight-1];

@@ -18,7 +18,7 @@ module dispatcher (
   input  logic         valid_i,
   output logic         ready_o,
   input  logic [1:0]   mask_i,
-  input  logic [511:0] contacts_i,
+  input  harpoon_contract_pkg::contact_line_t contacts_i,
   input  logic [61:0]  numbers_i,
 
   output logic         write_valid_o,
@@ -36,16 +36,23 @@ module dispatcher (
   logic [1:0]   hit, keep;
   logic [255:0] record [0:1];
 
-  for (genvar g = 0; g < 2; g++) begin : gen_record
-    logic [31:0] flow;
-    assign flow    = contacts_i[256*g+224 +: 32];
-    assign hit[g]  = mask_i[g] & (flow != harpoon_contract_pkg::FLOW_FAKE);
-    assign keep[g] = hits_only_i ? hit[g] : mask_i[g];
-    assign record[g] = hits_only_i
-                     ? {flow == harpoon_contract_pkg::FLOW_GRAZING, numbers_i[31*g +: 31],
-                        contacts_i[256*g +: 224]}
-                     : contacts_i[256*g +: 256];
+  harpoon_contract_pkg::contact_t first_contact, second_contact;
+  harpoon_contract_pkg::hit_t     first_hit, second_hit;
+  always_comb begin
+    first_contact          = contacts_i.first;
+    first_hit              = first_contact;
+    first_hit.hit.number   = numbers_i[30:0];
+    first_hit.hit.grazing  = first_contact.flow == harpoon_contract_pkg::FLOW_GRAZING;
+    second_contact         = contacts_i.second;
+    second_hit             = second_contact;
+    second_hit.hit.number  = numbers_i[61:31];
+    second_hit.hit.grazing = second_contact.flow == harpoon_contract_pkg::FLOW_GRAZING;
   end
+  assign hit[0]    = mask_i[0] & (first_contact.flow != harpoon_contract_pkg::FLOW_FAKE);
+  assign hit[1]    = mask_i[1] & (second_contact.flow != harpoon_contract_pkg::FLOW_FAKE);
+  assign keep      = hits_only_i ? hit : mask_i;
+  assign record[0] = hits_only_i ? first_hit : first_contact;
+  assign record[1] = hits_only_i ? second_hit : second_contact;
 
   // ---- pairing: a record may wait for its neighbour ----
   // | held | kept | line out          | held then |

@@ -26,10 +26,10 @@ module puc #(
   input  logic         dsm_commit_i,  // AFU_DSM_BASE was written
   input  logic [57:0]  context_line_i,
   input  logic         barrier_i,
-  input  logic [31:0]  config_i,      // as the register CONFIG
+  input  harpoon_contract_pkg::config_t config_i,
   output logic         done_o,
   output logic         idle_o,
-  output logic [3:0]   error_o,
+  output harpoon_contract_pkg::error_e  error_o,
   output logic [3:0]   state_o,
 
   output logic         read_valid_o,
@@ -65,7 +65,8 @@ module puc #(
 
   // ---- what the context and the control line said ----
   logic [57:0] source_q, dest_q, spheres_q;
-  logic [31:0] source_lines_q, dest_lines_q, sphere_count_q, pair_count_q, format_q, sequence_q;
+  logic [31:0] source_lines_q, dest_lines_q, sphere_count_q, pair_count_q, sequence_q;
+  harpoon_contract_pkg::format_e format_q;
   logic        load_table_q, go_q, forget_q, context_good_q, context_judge_q;
   logic [63:0] check_q, fold;
   logic [1:0]  ask_q;        // bit 0: context, bit 1: control line, still to request
@@ -74,7 +75,7 @@ module puc #(
   // ---- consequences ----
   logic        indexed, hits_only;
   logic [31:0] lines_needed, table_lines;
-  logic [3:0]  verdict, error_q;
+  harpoon_contract_pkg::error_e verdict, error_q;
   assign indexed      = format_q == harpoon_contract_pkg::FORMAT_INDEXED_HITS;
   assign hits_only    = format_q != harpoon_contract_pkg::FORMAT_DIRECT;
   assign lines_needed = indexed ? {4'd0, pair_count_q[31:4]} + 32'(pair_count_q[3:0] != '0)
@@ -98,6 +99,9 @@ module puc #(
   logic         source_valid, source_ready;
   logic [57:0]  collector_line;
   logic [511:0] table_data, source_data;
+  harpoon_contract_pkg::checked_line_t own_line, sent_line, control_line, data_view;
+  harpoon_contract_pkg::vafu2_cntxt_t  context_view;
+  harpoon_contract_pkg::control_t      control_view;
   collector u_collector (
     .clk_i, .rst_ni,
     .start_i        (start_q),
@@ -322,8 +326,7 @@ module puc #(
   assign dispatcher_ready  = write_ready_i & ~own_write;
   assign write_valid_o     = own_write | dispatcher_write;
   assign write_dsm_o       = own_write & (line_q != SendStatus);
-  assign write_data_o      = own_write ? {harpoon_contract_pkg::CHECK_SEED ^ fold, own_line[447:0]}
-                                       : dispatcher_data;
+  assign write_data_o      = own_write ? sent_line : dispatcher_data;
   always_comb begin
     write_line_o = dispatcher_line;
     if (own_write) begin
@@ -337,80 +340,93 @@ module puc #(
   end
 
   // ---- the lines that the PUC itself writes ----
-  logic [511:0] own_line;
+  harpoon_contract_pkg::dsm_id_t          id_line;
+  harpoon_contract_pkg::dsm_latency_t     latency_line;
+  harpoon_contract_pkg::dsm_performance_t performance_line;
+  harpoon_contract_pkg::status_t          status_line;
   always_comb begin
-    own_line = '0;
+    id_line                         = '0;
+    id_line.low                     = harpoon_contract_pkg::AFU_ID_LOW;
+    id_line.high                    = harpoon_contract_pkg::AFU_ID_HIGH;
+    id_line.config_word             = config_i;
+    id_line.table_spheres           = Spheres;
+    id_line.sequence_word           = sequence_q;
+
+    latency_line                    = '0;
+    latency_line.sequence_word      = sequence_q;
+    latency_line.first_line         = first_line_q;
+    latency_line.first_write        = first_write_q;
+    latency_line.last_write         = last_write_q;
+    latency_line.read_stalls        = read_stalls_q;
+    latency_line.write_stalls       = write_stalls_q;
+    latency_line.spl2_cycles        = spl2_cycles_q;
+    latency_line.sphere_count       = loaded_q;
+
+    performance_line                = '0;
+    performance_line.cycles         = cycles_q;
+    performance_line.sequence_word  = sequence_q;
+    performance_line.lines_read     = lines_read_q;
+    performance_line.lines_written  = lines_written;
+    performance_line.hits           = hits;
+    performance_line.scpu_pairs     = scpu_pairs;
+    performance_line.source_digest  = source_digest;
+    performance_line.dest_digest    = dest_digest;
+
+    status_line                     = '0;
+    status_line.status.done         = 1'b1;
+    status_line.status.failed       = error_q != harpoon_contract_pkg::ERROR_NONE;
+    status_line.error.code          = error_q;
+    status_line.sequence_word       = sequence_q;
+    status_line.hits                = hits;
+  end
+  always_comb begin
     unique case (line_q)
-      SendId: begin
-        own_line[harpoon_contract_pkg::DSM_ID_LOW_LSB +: 64]  = harpoon_contract_pkg::AFU_ID_LOW;
-        own_line[harpoon_contract_pkg::DSM_ID_HIGH_LSB +: 64] = harpoon_contract_pkg::AFU_ID_HIGH;
-        own_line[harpoon_contract_pkg::DSM_ID_CONFIG_LSB +: 32] = config_i;
-        own_line[harpoon_contract_pkg::DSM_ID_TABLE_SPHERES_LSB +: 32] = Spheres;
-        own_line[harpoon_contract_pkg::DSM_ID_SEQUENCE_LSB +: 32] = sequence_q;
-      end
-      SendLatency: begin
-        own_line[harpoon_contract_pkg::DSM_LATENCY_SEQUENCE_LSB +: 32]     = sequence_q;
-        own_line[harpoon_contract_pkg::DSM_LATENCY_FIRST_LINE_LSB +: 32]   = first_line_q;
-        own_line[harpoon_contract_pkg::DSM_LATENCY_FIRST_WRITE_LSB +: 32]  = first_write_q;
-        own_line[harpoon_contract_pkg::DSM_LATENCY_LAST_WRITE_LSB +: 32]   = last_write_q;
-        own_line[harpoon_contract_pkg::DSM_LATENCY_READ_STALLS_LSB +: 32]  = read_stalls_q;
-        own_line[harpoon_contract_pkg::DSM_LATENCY_WRITE_STALLS_LSB +: 32] = write_stalls_q;
-        own_line[harpoon_contract_pkg::DSM_LATENCY_SPL2_CYCLES_LSB +: 32]  = spl2_cycles_q;
-        own_line[harpoon_contract_pkg::DSM_LATENCY_SPHERE_COUNT_LSB +: 32] = loaded_q;
-      end
-      SendPerformance: begin
-        own_line[harpoon_contract_pkg::DSM_PERFORMANCE_CYCLES_LSB +: 32]        = cycles_q;
-        own_line[harpoon_contract_pkg::DSM_PERFORMANCE_SEQUENCE_LSB +: 32]      = sequence_q;
-        own_line[harpoon_contract_pkg::DSM_PERFORMANCE_LINES_READ_LSB +: 32]    = lines_read_q;
-        own_line[harpoon_contract_pkg::DSM_PERFORMANCE_LINES_WRITTEN_LSB +: 32] = lines_written;
-        own_line[harpoon_contract_pkg::DSM_PERFORMANCE_HITS_LSB +: 32]          = hits;
-        own_line[harpoon_contract_pkg::DSM_PERFORMANCE_SCPU_PAIRS_LSB +: 32]    = scpu_pairs;
-        own_line[harpoon_contract_pkg::DSM_PERFORMANCE_SOURCE_DIGEST_LSB +: 64] = source_digest;
-        own_line[harpoon_contract_pkg::DSM_PERFORMANCE_DEST_DIGEST_LSB +: 64]   = dest_digest;
-      end
-      default: begin
-        own_line[harpoon_contract_pkg::STATUS_STATUS_LSB +: 32] = harpoon_contract_pkg::STATUS_DONE
-          | ((error_q != harpoon_contract_pkg::ERROR_NONE) ? harpoon_contract_pkg::STATUS_FAILED
-                                                           : 32'd0);
-        own_line[harpoon_contract_pkg::STATUS_ERROR_LSB +: 32]    = {28'd0, error_q};
-        own_line[harpoon_contract_pkg::STATUS_SEQUENCE_LSB +: 32] = sequence_q;
-        own_line[harpoon_contract_pkg::STATUS_HITS_LSB +: 32]     = hits;
-      end
+      SendId:          own_line = id_line;
+      SendLatency:     own_line = latency_line;
+      SendPerformance: own_line = performance_line;
+      default:         own_line = status_line;
     endcase
+    sent_line       = own_line;
+    sent_line.check = harpoon_contract_pkg::CHECK_SEED ^ fold;
   end
 
   // The lines hold still between fold and send: the counters stop before they are sent.
   line_fold u_fold (
     .clk_i,
     .valid_i      (take_control_data),
-    .line_i       ({64'd0, data_i[447:0]}),
+    .line_i       (control_line),
     .or_valid_i   (state_q == Fold),
     .or_line_i    (own_line),
     .fold_o       (fold)
   );
 
   // ---- what arrives while fetching ----
+  assign data_view    = data_i;
+  assign context_view = data_i;
+  assign control_view = data_i;
+  always_comb begin
+    control_line       = data_i;
+    control_line.check = '0;
+  end
   always_ff @(posedge clk_i) begin
     context_judge_q <= take_control_data & ~got_context_q;
     if (context_judge_q) context_good_q <= check_good;
-    if (take_control_data) check_q <= data_i[harpoon_contract_pkg::CHECK_LSB +: 64];
+    if (take_control_data) check_q <= data_view.check;
     if (take_control_data & ~got_context_q) begin
-      source_q       <= data_i[harpoon_contract_pkg::VAFU2_CNTXT_SOURCE_LSB+6 +: 58];
-      dest_q         <= data_i[harpoon_contract_pkg::VAFU2_CNTXT_DEST_LSB+6 +: 58];
-      source_lines_q <= data_i[harpoon_contract_pkg::VAFU2_CNTXT_SOURCE_LINES_LSB +: 32];
-      dest_lines_q   <= data_i[harpoon_contract_pkg::VAFU2_CNTXT_DEST_LINES_LSB +: 32];
-      spheres_q      <= data_i[harpoon_contract_pkg::VAFU2_CNTXT_SPHERES_LSB+6 +: 58];
-      sphere_count_q <= data_i[harpoon_contract_pkg::VAFU2_CNTXT_SPHERE_COUNT_LSB +: 32];
+      source_q       <= context_view.source.line;
+      dest_q         <= context_view.dest.line;
+      source_lines_q <= context_view.source_lines;
+      dest_lines_q   <= context_view.dest_lines;
+      spheres_q      <= context_view.spheres.line;
+      sphere_count_q <= context_view.sphere_count;
     end
     if (take_control_data & got_context_q) begin
-      go_q         <= data_i[harpoon_contract_pkg::CONTROL_START_LSB +: 8]
-                      == harpoon_contract_pkg::CONTROL_GO;
-      forget_q     <= data_i[harpoon_contract_pkg::CONTROL_RESET_LSB +: 8]
-                      == harpoon_contract_pkg::CONTROL_GO;
-      pair_count_q <= data_i[harpoon_contract_pkg::CONTROL_PAIR_COUNT_LSB +: 32];
-      format_q     <= data_i[harpoon_contract_pkg::CONTROL_FORMAT_LSB +: 32];
-      sequence_q   <= data_i[harpoon_contract_pkg::CONTROL_SEQUENCE_LSB +: 32];
-      load_table_q <= data_i[harpoon_contract_pkg::CONTROL_LOAD_TABLE_LSB];
+      go_q         <= control_view.start == harpoon_contract_pkg::CONTROL_GO;
+      forget_q     <= control_view.reset == harpoon_contract_pkg::CONTROL_GO;
+      pair_count_q <= control_view.pair_count;
+      format_q     <= control_view.format;
+      sequence_q   <= control_view.sequence_word;
+      load_table_q <= control_view.load_table.load;
     end
   end
 

@@ -28,7 +28,7 @@ module spl2_writer #(
   output logic [$clog2(MaxInFlight):0]   outstanding_o,
   output logic                           idle_o,
   output logic                           fault_o,
-  output logic [3:0]                     fault_code_o,
+  output harpoon_contract_pkg::fault_e   fault_code_o,
   output logic [57:0]                    fault_line_o,
 
   output logic                           axi_awvalid_o,

@@ -5,6 +5,7 @@
 // zero_N, N the place of its lowest bit. *_LINE counts lines of 64 bytes.
 package harpoon_contract_pkg;
   localparam int unsigned MAX_PAGES = 1024;
+  localparam int unsigned PAIRS_PER_LINE = 2;
   localparam int unsigned INDEX_PAIRS_PER_LINE = 16;
   localparam logic [63:0] AFU_ID_LOW = 64'h9d3c48a17f20e6b5;
   localparam logic [63:0] AFU_ID_HIGH = 64'h484152504f4f4e01;

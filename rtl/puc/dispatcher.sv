@@ -17,9 +17,7 @@ module dispatcher (
 
   input  logic         valid_i,
   output logic         ready_o,
-  input  logic [1:0]   mask_i,
-  input  harpoon_contract_pkg::contact_line_t contacts_i,
-  input  logic [61:0]  numbers_i,
+  input  puc_pkg::result_t result_i,
 
   output logic         write_valid_o,
   input  logic         write_ready_i,
@@ -27,9 +25,7 @@ module dispatcher (
   output logic [511:0] write_data_o,
 
   output logic         idle_o,
-  output logic [31:0]  lines_o,
-  output logic [31:0]  hits_o,
-  output logic [31:0]  pairs_o
+  output puc_pkg::results_t results_o
 );
   // ---- the one or two records of a beat that are kept ----
   logic         take;
@@ -38,19 +34,21 @@ module dispatcher (
 
   harpoon_contract_pkg::contact_t first_contact, second_contact;
   harpoon_contract_pkg::hit_t     first_hit, second_hit;
+  harpoon_contract_pkg::contact_line_t contacts;
+  assign contacts = result_i.contacts;
   always_comb begin
-    first_contact          = contacts_i.first;
+    first_contact          = contacts.first;
     first_hit              = first_contact;
-    first_hit.hit.number   = numbers_i[30:0];
+    first_hit.hit.number   = result_i.tags.first;
     first_hit.hit.grazing  = first_contact.flow == harpoon_contract_pkg::FLOW_GRAZING;
-    second_contact         = contacts_i.second;
+    second_contact         = contacts.second;
     second_hit             = second_contact;
-    second_hit.hit.number  = numbers_i[61:31];
+    second_hit.hit.number  = result_i.tags.second;
     second_hit.hit.grazing = second_contact.flow == harpoon_contract_pkg::FLOW_GRAZING;
   end
-  assign hit[0]    = mask_i[0] & (first_contact.flow != harpoon_contract_pkg::FLOW_FAKE);
-  assign hit[1]    = mask_i[1] & (second_contact.flow != harpoon_contract_pkg::FLOW_FAKE);
-  assign keep      = hits_only_i ? hit : mask_i;
+  assign hit[0]    = result_i.mask[0] & (first_contact.flow != harpoon_contract_pkg::FLOW_FAKE);
+  assign hit[1]    = result_i.mask[1] & (second_contact.flow != harpoon_contract_pkg::FLOW_FAKE);
+  assign keep      = hits_only_i ? hit : result_i.mask;
   assign record[0] = hits_only_i ? first_hit : first_contact;
   assign record[1] = hits_only_i ? second_hit : second_contact;
 
@@ -78,9 +76,11 @@ module dispatcher (
   assign write_line_o  = dest_line_i + {26'd0, lines_q};
   assign write_data_o  = out_q;
   assign idle_o        = ~out_valid_q & ~valid_i;
-  assign lines_o       = lines_q;
-  assign hits_o        = hits_q;
-  assign pairs_o       = pairs_q;
+  always_comb begin
+    results_o.lines = lines_q;
+    results_o.hits  = hits_q;
+    results_o.pairs = pairs_q;
+  end
 
   always_ff @(posedge clk_i) begin
     if (!rst_ni || start_i) begin
@@ -93,7 +93,7 @@ module dispatcher (
     end else begin
       if (take) begin
         hits_q  <= hits_q + 32'(hit[0]) + 32'(hit[1]);
-        pairs_q <= pairs_q + 32'(mask_i[0]) + 32'(mask_i[1]);
+        pairs_q <= pairs_q + 32'(result_i.mask[0]) + 32'(result_i.mask[1]);
         if (keep != 2'b00) held_q <= held_q ? (&keep) : ~(&keep);
       end
       if (flush_i) held_q <= 1'b0;

@@ -214,7 +214,7 @@ module index_lanes #(
   // ---- compact: the first two survivors of the head, then the rest ----
   logic [Lanes-1:0] sent_q, survivors, rest, first_hot, second_hot;
   logic [1:0]       found;
-  logic [31:0]      first_idx, second_idx;
+  harpoon_contract_pkg::index_pair_t first_idx, second_idx;
   logic [30:0]      first_number, second_number;
   logic             look_ready, compact;
 
@@ -263,8 +263,8 @@ module index_lanes #(
       look_number_q[0] <= {second_number, first_number};
       look_number_q[1] <= look_number_q[0];
       look_number_q[2] <= look_number_q[1];
-      look_idx_q       <= {second_idx[16 +: W], second_idx[0 +: W],
-                           first_idx[16 +: W], first_idx[0 +: W]};
+      look_idx_q       <= {second_idx.p2[W-1:0], second_idx.p1[W-1:0],
+                           first_idx.p2[W-1:0], first_idx.p1[W-1:0]};
     end
   end
   for (genvar g = 0; g < 4; g++) begin : gen_again

@@ -92,6 +92,7 @@ class Package {
 
 void put_limits(Package& out) {
   out.number("MAX_PAGES", contract::kMaxPages);
+  out.number("PAIRS_PER_LINE", contract::kPairsPerLine);
   out.number("INDEX_PAIRS_PER_LINE", contract::kIndexPairsPerLine);
   out.bits("AFU_ID_LOW", 64, contract::kAfuIdLow);
   out.bits("AFU_ID_HIGH", 64, contract::kAfuIdHigh);

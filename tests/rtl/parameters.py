@@ -37,7 +37,6 @@ LIMITS = {
     "index_lanes": {"Lanes": LANES, "Spheres": SPHERES, "Depth": QUEUE, "Patience": SOME},
     "scpu_array": {
         "NumScpu": ("1 or even", [0, 3, 9], [1, 2]),
-        "TagWidth": SOME,
         "Depth": RESULTS,
         "FirstTurn": ("a power of two, 1 to LastTurn", [0, 3, 8192], [1, 64]),
         "LastTurn": ("a power of two, at least 4", [0, 2, 100], [4, 64]),
@@ -45,6 +44,9 @@ LIMITS = {
     },
     "puc": {"NumScpu": ("1 or even, up to 254", [0, 3, 256], [1, 2]), "Lanes": LANES,
             "Spheres": SPHERES, "Depth": RESULTS},
+    "puc_job": {"Spheres": SPHERES},
+    "puc_report": {"Spheres": SPHERES},
+    "front_indexed": {"Lanes": LANES, "Spheres": SPHERES},
     "spl2": {"MaxInFlight": IN_FLIGHT, "MaxPages": PAGES},
     "spl2_reader": {"MaxInFlight": IN_FLIGHT},
     "spl2_writer": {"MaxInFlight": IN_FLIGHT},

@@ -43,7 +43,10 @@ PROOFS = {
     "scpu_array": (["formal/pipeline_stubs.svh", "puc/scpu_array.sv"],
                    {"NumScpu": 4, "Depth": 8, "FirstTurn": 2, "LastTurn": 4,
                     "Patience": 2}, 2, 18),
-    "index_lanes": (["formal/pipeline_stubs.svh", "puc/index_lanes.sv"],
+    "index_slices": (["puc/index_slices.sv"], {"Lanes": 3}, 2, 10),
+    "index_compact": (["puc/index_compact.sv"], {"Lanes": 5}, 2, 5),
+    "index_lanes": (["formal/pipeline_stubs.svh", "puc/index_slices.sv", "puc/index_compact.sv",
+                     "puc/index_lanes.sv"],
                     {"Lanes": 3, "Spheres": 64, "Depth": 8, "Patience": 2}, 2, 18),
 }
 TIMEOUT_S = 300

@@ -34,6 +34,8 @@ LIMITS = {
     "delay_line": {"Width": SOME, "Latency": SOME, "RamMin": ("at least 2", [0, 1], [2])},
     "collector": {"CountWidth": ("1 to 32", [0, 33], [1, 32])},
     "sphere_table": {"Spheres": SPHERES, "Ports": SOME},
+    "index_slices": {"Lanes": LANES},
+    "index_compact": {"Lanes": LANES},
     "index_lanes": {"Lanes": LANES, "Spheres": SPHERES, "Depth": QUEUE, "Patience": SOME},
     "scpu_array": {
         "NumScpu": ("1 or even", [0, 3, 9], [1, 2]),

@@ -140,6 +140,11 @@ MUTANTS = {
         ("numbers_last", "= left_q <= per_line;", "= left_q < per_line;"),
         ("numbers_all", "= left_q <= per_line;", "= left_q <= per_line + per_line;"),
     ],
+    "front_direct": [
+        ("direct_empty_is_last", "= source_i.last | closing;", "= source_i.last;"),
+        ("direct_passes", "{valid_i & source_i.count[1], valid_i};", "{valid_i, valid_i};"),
+        ("direct_ends", "= open_i & lines_done_i & ~valid_i;", "= lines_done_i & ~valid_i;"),
+    ],
     "front_indexed": [
         ("indexed_empty_is_last", "assign beat_o.last = closing;", "assign beat_o.last = 1'b0;"),
         ("indexed_last_is_last", "= open_i & lines_done_i & idle_o;", "= open_i & lines_done_i;"),

@@ -38,6 +38,7 @@ PROOFS = {
              "puc/puc_sequence.sv", "puc/puc_counters.sv", "puc/puc_report.sv",
              "puc/source_numbers.sv", "puc/front_direct.sv", "puc/puc.sv"], {}, 3, 20),
     "source_numbers": (["puc/source_numbers.sv"], {}, 2, 5),
+    "front_direct": (["puc/front_direct.sv"], {}, 2, 3),
     "front_indexed": (["formal/front_stubs.svh", "puc/front_indexed.sv"], {"Spheres": 64}, 2, 8),
     "afu_registers": (["afu/afu_registers.sv"], {"MaxInFlight": 4, "Spheres": 64}, 3, 6),
     "scpu_array": (["formal/pipeline_stubs.svh", "puc/scpu_array.sv"],

@@ -22,4 +22,7 @@ module front_direct (
   assign beat_o.tags.first  = source_i.number;
   assign beat_o.tags.second = source_i.number | 31'd1;
   assign beat_o.pairs       = source_i.data;
+`ifdef FORMAL
+  `include "front_direct.svh"
+`endif
 endmodule

@@ -157,18 +157,19 @@ std::string package() {
   return out.text();
 }
 
-/// "bit 0 START: meaning; 7:4 CODE" of a word, or nothing.
+/// " (bits 0 START: meaning; 7:4 CODE)" for a word, nothing for another type.
 std::string bits_of(std::string_view type) {
   std::string text;
   for (const contract::Word& word : contract::kWords) {
     if (word.name != type) continue;
     for (const contract::Bits& bits : word.bits) {
-      text += text.empty() ? " (bits " : "; ";
+      if (!text.empty()) text += "; ";
       if (bits.count > 1) text += fmt::format("{}:", bits.low + bits.count - 1);
       text += fmt::format("{} {}", bits.low, bits.name);
       if (!bits.meaning.empty()) text += fmt::format(": {}", bits.meaning);
     }
-    text += ")";
+    const bool is_one = word.bits.size() == 1 && word.bits[0].count == 1;
+    return fmt::format(" ({} {})", is_one ? "bit" : "bits", text);
   }
   return text;
 }

@@ -32,25 +32,24 @@ module dispatcher (
   logic [1:0]   hit, keep;
   logic [255:0] record [0:1];
 
-  harpoon_contract_pkg::contact_t first_contact, second_contact;
-  harpoon_contract_pkg::hit_t     first_hit, second_hit;
   harpoon_contract_pkg::contact_line_t contacts;
+  harpoon_contract_pkg::hit_t          first_record, second_record;
   assign contacts = result_i.contacts;
   always_comb begin
-    first_contact          = contacts.first;
-    first_hit              = first_contact;
-    first_hit.hit.number   = result_i.tags.first;
-    first_hit.hit.grazing  = first_contact.flow == harpoon_contract_pkg::FLOW_GRAZING;
-    second_contact         = contacts.second;
-    second_hit             = second_contact;
-    second_hit.hit.number  = result_i.tags.second;
-    second_hit.hit.grazing = second_contact.flow == harpoon_contract_pkg::FLOW_GRAZING;
+    first_record  = contacts.first;
+    second_record = contacts.second;
+    if (hits_only_i) begin
+      first_record.hit.number   = result_i.tags.first;
+      first_record.hit.grazing  = contacts.first.flow == harpoon_contract_pkg::FLOW_GRAZING;
+      second_record.hit.number  = result_i.tags.second;
+      second_record.hit.grazing = contacts.second.flow == harpoon_contract_pkg::FLOW_GRAZING;
+    end
   end
-  assign hit[0]    = result_i.mask[0] & (first_contact.flow != harpoon_contract_pkg::FLOW_FAKE);
-  assign hit[1]    = result_i.mask[1] & (second_contact.flow != harpoon_contract_pkg::FLOW_FAKE);
+  assign hit[0]    = result_i.mask[0] & (contacts.first.flow != harpoon_contract_pkg::FLOW_FAKE);
+  assign hit[1]    = result_i.mask[1] & (contacts.second.flow != harpoon_contract_pkg::FLOW_FAKE);
   assign keep      = hits_only_i ? hit : result_i.mask;
-  assign record[0] = hits_only_i ? first_hit : first_contact;
-  assign record[1] = hits_only_i ? second_hit : second_contact;
+  assign record[0] = first_record;
+  assign record[1] = second_record;
 
   // ---- pairing: a record may wait for its neighbour ----
   // | held | kept | line out          | held then |

@@ -37,7 +37,7 @@ module puc_job #(
     $error("puc_job: Spheres must be a power of two, 8 to 65536");
 
   // ---- the two lines, as they arrive ----
-  harpoon_contract_pkg::checked_line_t data_view, fold_line;
+  harpoon_contract_pkg::checked_line_t data_view;
   harpoon_contract_pkg::vafu2_cntxt_t  context_view;
   harpoon_contract_pkg::control_t      control_view;
   logic [1:0]  ask_q;   // bit 0: context, bit 1: control line, still to request
@@ -46,16 +46,12 @@ module puc_job #(
   assign data_view     = data_i;
   assign context_view  = data_i;
   assign control_view  = data_i;
-  always_comb begin
-    fold_line       = data_i;
-    fold_line.check = '0;
-  end
   assign take          = fetch_i & data_valid_i;
   assign take_context  = take & ~got_context_q;
   assign take_control  = take & got_context_q;
   assign got_control_o = take_control;
   assign fold_valid_o  = take;
-  assign fold_line_o   = fold_line;
+  assign fold_line_o   = {64'd0, data_view.body};
   assign read_valid_o  = ask_q != '0;
   assign read_line_o   = ask_q[0] ? context_line_i
                                   : context_line_i + harpoon_contract_pkg::CONTROL_LINE;

@@ -28,67 +28,59 @@ module puc_report #(
   harpoon_contract_pkg::dsm_latency_t     latency_line;
   harpoon_contract_pkg::dsm_performance_t performance_line;
   harpoon_contract_pkg::status_t          status_line;
-  harpoon_contract_pkg::checked_line_t    line, checked_line;
+  harpoon_contract_pkg::checked_line_t    line;
 
   always_comb begin
-    id_line                        = '0;
-    id_line.low                    = harpoon_contract_pkg::AFU_ID_LOW;
-    id_line.high                   = harpoon_contract_pkg::AFU_ID_HIGH;
-    id_line.config_word            = config_i;
-    id_line.table_spheres          = Spheres;
-    id_line.sequence_word          = sequence_i;
-
-    latency_line                   = '0;
-    latency_line.sequence_word     = sequence_i;
-    latency_line.first_line        = counters_i.first_line;
-    latency_line.first_write       = counters_i.first_write;
-    latency_line.last_write        = counters_i.last_write;
-    latency_line.read_stalls       = counters_i.read_stalls;
-    latency_line.write_stalls      = counters_i.write_stalls;
-    latency_line.spl2_cycles       = counters_i.spl2_cycles;
-    latency_line.sphere_count      = loaded_i;
-
-    performance_line               = '0;
-    performance_line.cycles        = counters_i.cycles;
-    performance_line.sequence_word = sequence_i;
-    performance_line.lines_read    = counters_i.lines_read;
-    performance_line.lines_written = results_i.lines;
-    performance_line.hits          = results_i.hits;
-    performance_line.scpu_pairs    = results_i.pairs;
-    performance_line.source_digest = digests_i.source;
-    performance_line.dest_digest   = digests_i.dest;
-
-    status_line                    = '0;
-    status_line.status.done        = 1'b1;
-    status_line.status.failed      = error_i != harpoon_contract_pkg::ERROR_NONE;
-    status_line.error.code         = error_i;
-    status_line.sequence_word      = sequence_i;
-    status_line.hits               = results_i.hits;
-  end
-
-  always_comb begin
+    id_line          = '0;
+    latency_line     = '0;
+    performance_line = '0;
+    status_line      = '0;
     unique case (which_i)
       puc_pkg::SendId: begin
-        line         = id_line;
-        write_line_o = {52'd0, harpoon_contract_pkg::DSM_ID_LINE};
+        id_line.low           = harpoon_contract_pkg::AFU_ID_LOW;
+        id_line.high          = harpoon_contract_pkg::AFU_ID_HIGH;
+        id_line.config_word   = config_i;
+        id_line.table_spheres = Spheres;
+        id_line.sequence_word = sequence_i;
+        line                  = id_line;
+        write_line_o          = {52'd0, harpoon_contract_pkg::DSM_ID_LINE};
       end
       puc_pkg::SendLatency: begin
-        line         = latency_line;
-        write_line_o = {52'd0, harpoon_contract_pkg::DSM_LATENCY_LINE};
+        latency_line.sequence_word = sequence_i;
+        latency_line.first_line    = counters_i.first_line;
+        latency_line.first_write   = counters_i.first_write;
+        latency_line.last_write    = counters_i.last_write;
+        latency_line.read_stalls   = counters_i.read_stalls;
+        latency_line.write_stalls  = counters_i.write_stalls;
+        latency_line.spl2_cycles   = counters_i.spl2_cycles;
+        latency_line.sphere_count  = loaded_i;
+        line                       = latency_line;
+        write_line_o               = {52'd0, harpoon_contract_pkg::DSM_LATENCY_LINE};
       end
       puc_pkg::SendPerformance: begin
-        line         = performance_line;
-        write_line_o = {52'd0, harpoon_contract_pkg::DSM_PERFORMANCE_LINE};
+        performance_line.cycles        = counters_i.cycles;
+        performance_line.sequence_word = sequence_i;
+        performance_line.lines_read    = counters_i.lines_read;
+        performance_line.lines_written = results_i.lines;
+        performance_line.hits          = results_i.hits;
+        performance_line.scpu_pairs    = results_i.pairs;
+        performance_line.source_digest = digests_i.source;
+        performance_line.dest_digest   = digests_i.dest;
+        line                           = performance_line;
+        write_line_o                   = {52'd0, harpoon_contract_pkg::DSM_PERFORMANCE_LINE};
       end
       default: begin
-        line         = status_line;
-        write_line_o = context_line_i + harpoon_contract_pkg::STATUS_LINE;
+        status_line.status.done   = 1'b1;
+        status_line.status.failed = error_i != harpoon_contract_pkg::ERROR_NONE;
+        status_line.error.code    = error_i;
+        status_line.sequence_word = sequence_i;
+        status_line.hits          = results_i.hits;
+        line                      = status_line;
+        write_line_o              = context_line_i + harpoon_contract_pkg::STATUS_LINE;
       end
     endcase
-    checked_line       = line;
-    checked_line.check = harpoon_contract_pkg::CHECK_SEED ^ fold_i;
   end
   assign line_o = line;
-  assign data_o = checked_line;
+  assign data_o = {harpoon_contract_pkg::CHECK_SEED ^ fold_i, line.body};
   assign dsm_o  = which_i != puc_pkg::SendStatus;
 endmodule

@@ -34,21 +34,22 @@ module scpu (
     .depth_o(depth), .hit_o(hit), .grazing_o(grazing)
   );
 
-  harpoon_contract_pkg::contact_t real_contact, no_contact;
-  always_comb begin
-    real_contact.pos_x    = pos_x;
-    real_contact.pos_y    = pos_y;
-    real_contact.pos_z    = pos_z;
-    real_contact.normal_x = normal_x;
-    real_contact.normal_y = normal_y;
-    real_contact.normal_z = normal_z;
-    real_contact.depth    = depth;
-    real_contact.flow     = grazing ? harpoon_contract_pkg::FLOW_GRAZING
+  always_ff @(posedge clk_i) begin
+    if (hit) begin
+      contact_o.pos_x    <= pos_x;
+      contact_o.pos_y    <= pos_y;
+      contact_o.pos_z    <= pos_z;
+      contact_o.normal_x <= normal_x;
+      contact_o.normal_y <= normal_y;
+      contact_o.normal_z <= normal_z;
+      contact_o.depth    <= depth;
+      contact_o.flow     <= grazing ? harpoon_contract_pkg::FLOW_GRAZING
                                     : harpoon_contract_pkg::FLOW_REAL;
-    no_contact            = '0;
-    no_contact.flow       = harpoon_contract_pkg::FLOW_FAKE;
+    end else begin
+      contact_o      <= '0;
+      contact_o.flow <= harpoon_contract_pkg::FLOW_FAKE;
+    end
   end
-  always_ff @(posedge clk_i) contact_o <= hit ? real_contact : no_contact;
 
   logic [scpu_pkg::Latency-1:0] valid_q;
   always_ff @(posedge clk_i) begin

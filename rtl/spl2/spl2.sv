@@ -106,7 +106,7 @@ module spl2 #(
   typedef enum logic [1:0] {OwnIdle, OwnFold, OwnSend} own_e;
   own_e         own_q;
   logic         own_report_q, id_pending_q, report_pending_q, spl_dsm_known_q;
-  harpoon_contract_pkg::checked_line_t own_line, sent_line;
+  harpoon_contract_pkg::checked_line_t own_line;
   logic [63:0]  fold;
 
   assign stop         = (state_q == Fault) | (state_q == Drain);
@@ -178,7 +178,8 @@ module spl2 #(
                               : harpoon_contract_pkg::SPL_DSM_ID_LINE}
                            : write_dsm_i ? {afu_dsm_line_i[57:6], write_line_i[5:0]} : write_line_i;
   assign writer_req_data   = writer_req_own
-                           ? sent_line : write_data_i;
+                           ? {harpoon_contract_pkg::CHECK_SEED ^ fold, own_line.body}
+                           : write_data_i;
   assign write_ready_o     = ~writer_req_own & puc_write_allowed & writer_req_ready;
 
   spl2_writer #(.MaxInFlight(MaxInFlight)) u_writer (
@@ -209,18 +210,12 @@ module spl2 #(
   logic [42:0] entry_page_q;
   logic        entry_mapped_q;
   logic [31:0] entry_index_q;
-  harpoon_contract_pkg::checked_line_t data_view, loaded_line;
+  harpoon_contract_pkg::checked_line_t data_view;
   harpoon_contract_pkg::spl2_cntxt_t   context_view;
   harpoon_contract_pkg::pte_t          pte_view;
   assign data_view    = data_o;
   assign context_view = data_o;
   assign pte_view     = data_o;
-  always_comb begin
-    loaded_line       = data_o;
-    loaded_line.check = '0;
-    sent_line         = own_line;
-    sent_line.check   = harpoon_contract_pkg::CHECK_SEED ^ fold;
-  end
 
   assign loading    = (state_q == ContextWait) | (state_q == Entries);
   assign load_line  = loading & reader_rsp_valid;
@@ -233,7 +228,7 @@ module spl2 #(
   line_fold u_fold (
     .clk_i,
     .valid_i    (load_line),
-    .line_i     (loaded_line),
+    .line_i     ({64'd0, data_view.body}),
     .or_valid_i (own_q == OwnFold),
     .or_line_i  (own_line),
     .fold_o     (fold)

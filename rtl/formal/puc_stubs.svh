@@ -22,14 +22,16 @@ module front_indexed #(
   input logic open_i, lines_done_i, table_valid_i, valid_i, ready_i,
   input logic [31:0] sphere_count_i,
   input logic [511:0] table_data_i,
+  input logic [511:0] line_i,
   input puc_pkg::source_t source_i,
   output logic ready_o, valid_o, index_error_o, idle_o,
   output puc_pkg::beat_t beat_o,
+  output harpoon_contract_pkg::pair_line_t pairs_o,
   output logic [31:0] loaded_o
 );
   (* anyseq *) logic [580:0] any;
   (* anyconst *) logic [31:0] count;
-  assign {ready_o, valid_o, index_error_o, idle_o, beat_o} = any;
+  assign {ready_o, valid_o, index_error_o, idle_o, beat_o, pairs_o} = any;
   assign loaded_o = count;
 endmodule
 module scpu_array #(
@@ -37,17 +39,20 @@ module scpu_array #(
 ) (
   input logic clk_i, rst_ni, spread_i, more_i, valid_i, ready_i,
   input puc_pkg::beat_t beat_i,
+  input harpoon_contract_pkg::pair_line_t pairs_i,
   output logic ready_o, valid_o, idle_o,
-  output puc_pkg::result_t result_o
+  output puc_pkg::result_t result_o,
+  output harpoon_contract_pkg::contact_line_t contacts_o
 );
   (* anyseq *) logic [578:0] any;
-  assign {ready_o, valid_o, idle_o, result_o} = any;
+  assign {ready_o, valid_o, idle_o, result_o, contacts_o} = any;
 endmodule
 module dispatcher (
   input logic clk_i, rst_ni, start_i, flush_i, hits_only_i, valid_i, write_ready_i,
   input logic [57:0] dest_line_i,
   input logic [31:0] dest_lines_i,
   input puc_pkg::result_t result_i,
+  input harpoon_contract_pkg::contact_line_t contacts_i,
   output logic ready_o, write_valid_o, idle_o,
   output logic [57:0] write_line_o,
   output logic [511:0] write_data_o,

@@ -25,8 +25,8 @@
   end
   always_comb begin
     assume (beat_i.mask != 2'b10);
-    assume (beat_i.pairs[0] == (f_in_q == f_index)
-            && beat_i.pairs[256] == (f_in_q == f_index));
+    assume (pairs_i.first.p1.x[0] == (f_in_q == f_index)
+            && pairs_i.second.p1.x[0] == (f_in_q == f_index));
     // credits (credits_available, credits_home) and fifo (fifo_prompt, fifo_conserves)
     assume (credit == (f_in_q - f_out_q != 5'(Depth)));
     assume (all_home == (f_in_q == f_out_q));

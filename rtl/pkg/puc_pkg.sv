@@ -4,32 +4,29 @@
 // The stream is ready/valid, a beat one or two pairs with their tags, in pair order. The last beat
 // of a job, and no other, says `last`; it may hold no pair (`mask` 00), every other beat holds one
 // or two (01 or 11). So a front end may say `last` with its last pair, or once it knows that there
-// will be none.
+// will be none. Pairs, contacts and lines travel beside these structs, as records of the contract.
 package puc_pkg;
   typedef struct packed {
-    logic [30:0] second;      // numbers of the pairs
+    logic [30:0] second;   // numbers of the pairs
     logic [30:0] first;
   } tags_t;
 
   typedef struct packed {
-    logic         last;
-    logic [1:0]   mask;
-    tags_t        tags;
-    logic [511:0] pairs;      // a pair_line_t of the contract
+    logic       last;
+    logic [1:0] mask;
+    tags_t      tags;
   } beat_t;
 
   typedef struct packed {
-    logic [1:0]   mask;
-    tags_t        tags;
-    logic [511:0] contacts;   // a contact_line_t of the contract
+    logic [1:0] mask;
+    tags_t      tags;
   } result_t;
 
   // A line of Src: how many pairs it holds, the number of the first, and whether it is the last.
   typedef struct packed {
-    logic         last;
-    logic [4:0]   count;
-    logic [30:0]  number;
-    logic [511:0] data;
+    logic        last;
+    logic [4:0]  count;
+    logic [30:0] number;
   } source_t;
 
   // What the context and the control line ask for.

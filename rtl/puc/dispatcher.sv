@@ -18,6 +18,7 @@ module dispatcher (
   input  logic         valid_i,
   output logic         ready_o,
   input  puc_pkg::result_t result_i,
+  input  harpoon_contract_pkg::contact_line_t contacts_i,
 
   output logic         write_valid_o,
   input  logic         write_ready_i,
@@ -32,21 +33,19 @@ module dispatcher (
   logic [1:0]   hit, keep;
   logic [255:0] record [0:1];
 
-  harpoon_contract_pkg::contact_line_t contacts;
-  harpoon_contract_pkg::hit_t          first_record, second_record;
-  assign contacts = result_i.contacts;
+  harpoon_contract_pkg::hit_t first_record, second_record;
   always_comb begin
-    first_record  = contacts.first;
-    second_record = contacts.second;
+    first_record  = contacts_i.first;
+    second_record = contacts_i.second;
     if (hits_only_i) begin
       first_record.hit.number   = result_i.tags.first;
-      first_record.hit.grazing  = contacts.first.flow == harpoon_contract_pkg::FLOW_GRAZING;
+      first_record.hit.grazing  = contacts_i.first.flow == harpoon_contract_pkg::FLOW_GRAZING;
       second_record.hit.number  = result_i.tags.second;
-      second_record.hit.grazing = contacts.second.flow == harpoon_contract_pkg::FLOW_GRAZING;
+      second_record.hit.grazing = contacts_i.second.flow == harpoon_contract_pkg::FLOW_GRAZING;
     end
   end
-  assign hit[0]    = result_i.mask[0] & (contacts.first.flow != harpoon_contract_pkg::FLOW_FAKE);
-  assign hit[1]    = result_i.mask[1] & (contacts.second.flow != harpoon_contract_pkg::FLOW_FAKE);
+  assign hit[0]    = result_i.mask[0] & (contacts_i.first.flow != harpoon_contract_pkg::FLOW_FAKE);
+  assign hit[1]    = result_i.mask[1] & (contacts_i.second.flow != harpoon_contract_pkg::FLOW_FAKE);
   assign keep      = hits_only_i ? hit : result_i.mask;
   assign record[0] = first_record;
   assign record[1] = second_record;

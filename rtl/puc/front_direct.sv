@@ -8,9 +8,11 @@ module front_direct (
   input  logic             valid_i,
   output logic             ready_o,
   input  puc_pkg::source_t source_i,
+  input  logic [511:0]     line_i,
   output logic             valid_o,
   input  logic             ready_i,
-  output puc_pkg::beat_t   beat_o
+  output puc_pkg::beat_t   beat_o,
+  output harpoon_contract_pkg::pair_line_t pairs_o
 );
   logic closing;
 
@@ -21,7 +23,7 @@ module front_direct (
   assign beat_o.mask        = {valid_i & source_i.count[1], valid_i};
   assign beat_o.tags.first  = source_i.number;
   assign beat_o.tags.second = source_i.number | 31'd1;
-  assign beat_o.pairs       = source_i.data;
+  assign pairs_o            = line_i;
 `ifdef FORMAL
   `include "front_direct.svh"
 `endif

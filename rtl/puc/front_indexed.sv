@@ -34,9 +34,11 @@ module front_indexed #(
   input  logic             valid_i,
   output logic             ready_o,
   input  puc_pkg::source_t source_i,
+  input  logic [511:0]     line_i,
   output logic             valid_o,
   input  logic             ready_i,
   output puc_pkg::beat_t   beat_o,
+  output harpoon_contract_pkg::pair_line_t pairs_o,
 
   output logic [31:0]      loaded_o,
   output logic             index_error_o,
@@ -69,6 +71,7 @@ module front_indexed #(
   // ---- lines ----
   logic             clk, rst_nq, slice_ready, line_valid, line_ready;
   puc_pkg::source_t line;
+  logic [511:0]     line_data;
   always_ff @(posedge clk_i) rst_nq <= rst_ni;
   assign ready_o = slice_ready & ~loading_q;
   clock_gate u_gate (
@@ -81,10 +84,10 @@ module front_indexed #(
     .rst_ni,
     .valid_i (valid_i & enable_i & ~loading_q),
     .ready_o (slice_ready),
-    .data_i  ({source_i.last | barrier_i, source_i.count, source_i.number, source_i.data}),
+    .data_i  ({source_i.last | barrier_i, source_i.count, source_i.number, line_i}),
     .valid_o (line_valid),
     .ready_i (line_ready),
-    .data_o  (line)
+    .data_o  ({line, line_data})
   );
 
   // ---- pairs ----
@@ -101,7 +104,7 @@ module front_indexed #(
     .table_data_i,
     .valid_i        (line_valid),
     .ready_o        (line_ready),
-    .line_i         (line.data),
+    .line_i         (line_data),
     .number_i       (line.number),
     .count_i        (line.count),
     .last_i         (line.last),
@@ -109,7 +112,7 @@ module front_indexed #(
     .valid_o        (lanes_valid),
     .ready_i        (ready_i & enable_i),
     .mask_o         (mask),
-    .pairs_o        (beat_o.pairs),
+    .pairs_o        (pairs_o),
     .numbers_o      (beat_o.tags),
     .index_error_o,
     .idle_o         (lanes_idle)

@@ -159,7 +159,6 @@ module puc #(
     .pair_count_i (job.pair_count),
     .indexed_i    (plan.indexed),
     .taken_i      (source_valid & source_ready),
-    .line_i       (source_data),
     .source_o     (source)
   );
   assign line_taken = data_valid_i & collector_data_ready & ~fetching;
@@ -171,6 +170,7 @@ module puc #(
   logic           index_error;
   logic [31:0]    loaded;
   puc_pkg::beat_t beat, direct_beat, indexed_beat;
+  harpoon_contract_pkg::pair_line_t pairs, direct_pairs, indexed_pairs;
 
   front_direct u_direct (
     .open_i       (~ended_q),
@@ -178,9 +178,11 @@ module puc #(
     .valid_i      (source_valid),
     .ready_o      (direct_ready),
     .source_i     (source),
+    .line_i       (source_data),
     .valid_o      (direct_valid),
     .ready_i      (array_ready),
-    .beat_o       (direct_beat)
+    .beat_o       (direct_beat),
+    .pairs_o      (direct_pairs)
   );
   front_indexed #(.Lanes(Lanes), .Spheres(Spheres)) u_indexed (
     .clk_i, .rst_ni, .cold_rst_ni,
@@ -198,9 +200,11 @@ module puc #(
     .valid_i        (source_valid),
     .ready_o        (indexed_ready),
     .source_i       (source),
+    .line_i         (source_data),
     .valid_o        (indexed_valid),
     .ready_i        (array_ready),
     .beat_o         (indexed_beat),
+    .pairs_o        (indexed_pairs),
     .loaded_o       (loaded),
     .index_error_o  (index_error),
     .idle_o         (indexed_idle)
@@ -208,6 +212,7 @@ module puc #(
   assign source_ready = plan.indexed ? indexed_ready : direct_ready;
   assign beat_valid   = plan.indexed ? indexed_valid : direct_valid;
   assign beat         = plan.indexed ? indexed_beat : direct_beat;
+  assign pairs        = plan.indexed ? indexed_pairs : direct_pairs;
 
   // ---- the stream to its end: every pair went to the SCPUs, and its result to Dst ----
   assign last_taken = beat_valid & array_ready & beat.last;
@@ -226,18 +231,21 @@ module puc #(
   logic [511:0]      dispatcher_data;
   puc_pkg::result_t  result;
   puc_pkg::results_t results;
+  harpoon_contract_pkg::contact_line_t contacts;
 
   scpu_array #(.NumScpu(NumScpu), .Depth(Depth)) u_array (
     .clk_i, .rst_ni,
-    .spread_i (barrier_i),
-    .more_i   (more),
-    .valid_i  (beat_valid),
-    .ready_o  (array_ready),
-    .beat_i   (beat),
-    .valid_o  (result_valid),
-    .ready_i  (result_ready),
-    .result_o (result),
-    .idle_o   (array_idle)
+    .spread_i   (barrier_i),
+    .more_i     (more),
+    .valid_i    (beat_valid),
+    .ready_o    (array_ready),
+    .beat_i     (beat),
+    .pairs_i    (pairs),
+    .valid_o    (result_valid),
+    .ready_i    (result_ready),
+    .result_o   (result),
+    .contacts_o (contacts),
+    .idle_o     (array_idle)
   );
   dispatcher u_dispatcher (
     .clk_i, .rst_ni,
@@ -249,6 +257,7 @@ module puc #(
     .valid_i       (result_valid),
     .ready_o       (result_ready),
     .result_i      (result),
+    .contacts_i    (contacts),
     .write_valid_o (dispatcher_write),
     .write_ready_i (dispatcher_ready),
     .write_line_o  (dispatcher_line),

@@ -29,9 +29,11 @@ module scpu_array #(
   input  logic             valid_i,
   output logic             ready_o,
   input  puc_pkg::beat_t   beat_i,
+  input  harpoon_contract_pkg::pair_line_t    pairs_i,
   output logic             valid_o,
   input  logic             ready_i,
   output puc_pkg::result_t result_o,
+  output harpoon_contract_pkg::contact_line_t contacts_o,
   output logic             idle_o
 );
   if (NumScpu != 1 && (NumScpu == 0 || NumScpu % 2 != 0))
@@ -57,9 +59,7 @@ module scpu_array #(
   logic [1:0]            issue_mask;
   logic [256*SLOTS-1:0]  issue_pairs;
   puc_pkg::tags_t        issue_tags;
-  harpoon_contract_pkg::pair_line_t pairs;
 
-  assign pairs   = beat_i.pairs;
   assign issue   = valid_i & credit & beat_i.mask[0];
   assign ready_o = credit & last_half;
   if (SLOTS == 1) begin : gen_halves
@@ -70,12 +70,12 @@ module scpu_array #(
     end
     assign last_half   = half_q | ~beat_i.mask[1];
     assign issue_mask  = {1'b0, half_q | beat_i.mask[0]};
-    assign issue_pairs = half_q ? pairs.second : pairs.first;
+    assign issue_pairs = half_q ? pairs_i.second : pairs_i.first;
     assign issue_tags  = half_q ? {31'd0, beat_i.tags.second} : beat_i.tags;
   end else begin : gen_whole
     assign last_half   = 1'b1;
     assign issue_mask  = beat_i.mask;
-    assign issue_pairs = pairs;
+    assign issue_pairs = pairs_i;
     assign issue_tags  = beat_i.tags;
   end
 
@@ -166,7 +166,6 @@ module scpu_array #(
   logic           all_home;
   logic [1:0]     mask;
   puc_pkg::tags_t tags;
-  logic [511:0]   contacts;
   fifo #(.Width(64), .Depth(Depth)) u_tags (
     .clk_i, .rst_ni,
     .valid_i (issue),
@@ -184,14 +183,13 @@ module scpu_array #(
     .data_i  (merged_q),
     .valid_o (valid_o),
     .ready_i (take_result),
-    .data_o  (contacts),
+    .data_o  (contacts_o),
     .empty_o (result_empty)
   );
   assign take_result = valid_o & ready_i;
   always_comb begin
-    result_o.mask     = mask;
-    result_o.tags     = tags;
-    result_o.contacts = contacts;
+    result_o.mask = mask;
+    result_o.tags = tags;
   end
   credits #(.Count(Depth)) u_credits (
     .clk_i, .rst_ni,

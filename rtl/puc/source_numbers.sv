@@ -1,7 +1,7 @@
-// Numbers the pairs of Src: a line in, the same line out with how many pairs it holds, the number
-// of the first, and whether it is the last.
+// Numbers the pairs of Src: how many the line that is there holds, the number of the first, and
+// whether it is the last line.
 //
-// No latency; the handshake of the lines passes by: `taken_i` says that this line goes now.
+// No latency; the lines themselves pass by: `taken_i` says that this one goes now.
 // `start_i` (one cycle) begins with pair 0 of `pair_count_i`; a line holds 16 pairs if `indexed_i`,
 // or 2.
 module source_numbers (
@@ -10,7 +10,6 @@ module source_numbers (
   input  logic [31:0]      pair_count_i,
   input  logic             indexed_i,
   input  logic             taken_i,
-  input  logic [511:0]     line_i,
   output puc_pkg::source_t source_o
 );
   logic [31:0] left_q, number_q, per_line;   // pairs left, number of the next
@@ -31,7 +30,6 @@ module source_numbers (
     source_o.last   = left_q <= per_line;
     source_o.count  = (left_q >= per_line) ? per_line[4:0] : left_q[4:0];
     source_o.number = number_q[30:0];
-    source_o.data   = line_i;
   end
 `ifdef FORMAL
   `include "source_numbers.svh"

@@ -39,26 +39,39 @@ module afu_registers #(
 
   input  logic        done_i,
   input  logic        idle_i,
-  input  logic [31:0] config_i,
+  input  harpoon_contract_pkg::config_t  config_i,
   input  logic        fault_valid_i,
-  input  logic [3:0]  fault_code_i,
-  input  logic [3:0]  fault_request_i,
+  input  harpoon_contract_pkg::fault_e   fault_code_i,
+  input  harpoon_contract_pkg::request_e fault_request_i,
   input  logic [57:0] fault_line_i,
-  input  logic [3:0]  error_i,
-  input  logic [31:0] state_i
+  input  harpoon_contract_pkg::error_e   error_i,
+  input  harpoon_contract_pkg::state_t   state_i
 );
+  if (MaxInFlight < 2 || MaxInFlight > 128 || 1 << $clog2(MaxInFlight) != MaxInFlight)
+    $error("afu_registers: MaxInFlight must be a power of two, 2 to 128");
+  if (Spheres < 8 || Spheres > 65536 || 1 << $clog2(Spheres) != Spheres)
+    $error("afu_registers: Spheres must be a power of two, 8 to 65536");
+
   localparam int unsigned ID = $clog2(MaxInFlight);
 
   logic        write, read, done_q, ap_done_q;
   logic [31:0] high_q, read_value;   // the high half of a 64-bit CSR waits for its low half
-  logic [57:0] line;
+
+  // ---- what is written, as each register sees it ----
+  harpoon_contract_pkg::ap_ctrl_t      ap_ctrl_view;
+  harpoon_contract_pkg::puc_mode_t     puc_mode_view;
+  harpoon_contract_pkg::spl2_ch_ctrl_t ch_ctrl_view;
+  harpoon_contract_pkg::line_address_t address_view;
+  assign ap_ctrl_view  = wdata_i;
+  assign puc_mode_view = wdata_i;
+  assign ch_ctrl_view  = wdata_i;
+  assign address_view  = {high_q, wdata_i};
 
   assign write     = awvalid_i & wvalid_i & ~bvalid_o;
   assign awready_o = write;
   assign wready_o  = write;
   assign read      = arvalid_i & ~rvalid_o;
   assign arready_o = ~rvalid_o;
-  assign line      = {high_q, wdata_i[31:6]};
 
   always_ff @(posedge clk_i) begin
     if (!rst_ni) begin
@@ -83,25 +96,25 @@ module afu_registers #(
       if (write) begin
         bvalid_o <= 1'b1;
         unique case (awaddr_i)
-          harpoon_contract_pkg::REG_AP_CTRL: enable_o <= wdata_i[0];
+          harpoon_contract_pkg::REG_AP_CTRL: enable_o <= ap_ctrl_view.start;
           harpoon_contract_pkg::REG_IN_FLIGHT:
             limit_o <= (wdata_i == '0 || wdata_i > MaxInFlight) ? (ID+1)'(MaxInFlight)
                                                                 : wdata_i[ID:0];
-          harpoon_contract_pkg::REG_PUC_MODE: barrier_o <= wdata_i[0];
+          harpoon_contract_pkg::REG_PUC_MODE: barrier_o <= puc_mode_view.batch_barrier;
           harpoon_contract_pkg::REG_SPL2_CH_CTRL: begin
-            reset_o  <= wdata_i[0];
-            enable_o <= wdata_i[1];
+            reset_o  <= ch_ctrl_view.reset;
+            enable_o <= ch_ctrl_view.enable;
           end
           harpoon_contract_pkg::REG_SPL_DSM_BASE: begin
-            spl_dsm_page_o   <= line[57:6];
+            spl_dsm_page_o   <= address_view.line[57:6];
             spl_dsm_commit_o <= 1'b1;
           end
           harpoon_contract_pkg::REG_AFU_DSM_BASE: begin
-            afu_dsm_line_o   <= line;
+            afu_dsm_line_o   <= address_view.line;
             afu_dsm_commit_o <= 1'b1;
           end
-          harpoon_contract_pkg::REG_SPL2_CNTXT_BASE: spl2_context_line_o <= line;
-          harpoon_contract_pkg::REG_AFU_CNTXT_BASE:  afu_context_line_o <= line;
+          harpoon_contract_pkg::REG_SPL2_CNTXT_BASE: spl2_context_line_o <= address_view.line;
+          harpoon_contract_pkg::REG_AFU_CNTXT_BASE:  afu_context_line_o <= address_view.line;
           (harpoon_contract_pkg::REG_SPL_DSM_BASE + 16'd4),
           (harpoon_contract_pkg::REG_AFU_DSM_BASE + 16'd4),
           (harpoon_contract_pkg::REG_SPL2_CNTXT_BASE + 16'd4),
@@ -112,10 +125,33 @@ module afu_registers #(
     end
   end
 
+  // ---- what is read ----
+  harpoon_contract_pkg::ap_ctrl_t      ap_ctrl;
+  harpoon_contract_pkg::puc_mode_t     puc_mode;
+  harpoon_contract_pkg::spl2_fault_t   spl2_fault;
+  harpoon_contract_pkg::line_address_t fault_address;
+  harpoon_contract_pkg::error_word_t   afu_error;
+  always_comb begin
+    ap_ctrl                = '0;
+    ap_ctrl.start          = ~idle_i;
+    ap_ctrl.done           = ap_done_q;
+    ap_ctrl.idle           = idle_i;
+    ap_ctrl.ready          = ap_done_q;
+    puc_mode               = '0;
+    puc_mode.batch_barrier = barrier_o;
+    spl2_fault             = '0;
+    spl2_fault.valid       = fault_valid_i;
+    spl2_fault.code        = fault_code_i;
+    spl2_fault.request     = fault_request_i;
+    fault_address          = '0;
+    fault_address.line     = fault_line_i;
+    afu_error              = '0;
+    afu_error.code         = error_i;
+  end
+
   always_comb begin
     unique case (araddr_i)
-      harpoon_contract_pkg::REG_AP_CTRL:
-        read_value = {28'd0, ap_done_q, idle_i, ap_done_q, ~idle_i};
+      harpoon_contract_pkg::REG_AP_CTRL:    read_value = ap_ctrl;
       harpoon_contract_pkg::REG_AFU_ID_0:   read_value = harpoon_contract_pkg::AFU_ID_LOW[31:0];
       harpoon_contract_pkg::REG_AFU_ID_1:   read_value = harpoon_contract_pkg::AFU_ID_LOW[63:32];
       harpoon_contract_pkg::REG_AFU_ID_2:   read_value = harpoon_contract_pkg::AFU_ID_HIGH[31:0];
@@ -123,12 +159,11 @@ module afu_registers #(
       harpoon_contract_pkg::REG_CONFIG:     read_value = config_i;
       harpoon_contract_pkg::REG_TABLE_SPHERES: read_value = Spheres;
       harpoon_contract_pkg::REG_IN_FLIGHT:  read_value = 32'(limit_o);
-      harpoon_contract_pkg::REG_PUC_MODE:   read_value = {31'd0, barrier_o};
-      harpoon_contract_pkg::REG_SPL2_FAULT:
-        read_value = {20'd0, fault_request_i, fault_code_i, 3'd0, fault_valid_i};
-      harpoon_contract_pkg::REG_FAULT_ADDRESS_LO: read_value = {fault_line_i[25:0], 6'd0};
-      harpoon_contract_pkg::REG_FAULT_ADDRESS_HI: read_value = fault_line_i[57:26];
-      harpoon_contract_pkg::REG_AFU_ERROR:  read_value = {28'd0, error_i};
+      harpoon_contract_pkg::REG_PUC_MODE:   read_value = puc_mode;
+      harpoon_contract_pkg::REG_SPL2_FAULT: read_value = spl2_fault;
+      harpoon_contract_pkg::REG_FAULT_ADDRESS_LO: read_value = fault_address[31:0];
+      harpoon_contract_pkg::REG_FAULT_ADDRESS_HI: read_value = fault_address[63:32];
+      harpoon_contract_pkg::REG_AFU_ERROR:  read_value = afu_error;
       harpoon_contract_pkg::REG_STATE:      read_value = state_i;
       default:                              read_value = '0;
     endcase

@@ -65,6 +65,15 @@ module harpoon_afu #(
   input  logic [$clog2(MaxInFlight)-1:0] m_axi_bid,
   input  logic [1:0]                     m_axi_bresp
 );
+  if (NumScpu != 1 && (NumScpu == 0 || NumScpu > 254 || NumScpu % 2 != 0))
+    $error("harpoon_afu: NumScpu must be 1 or even, up to 254");
+  if (Lanes < 1 || Lanes > 16)
+    $error("harpoon_afu: Lanes must be 1 to 16");
+  if (MaxInFlight < 2 || MaxInFlight > 128 || 1 << $clog2(MaxInFlight) != MaxInFlight)
+    $error("harpoon_afu: MaxInFlight must be a power of two, 2 to 128");
+  if (Spheres < 8 || Spheres > 65536 || 1 << $clog2(Spheres) != Spheres)
+    $error("harpoon_afu: Spheres must be a power of two, 8 to 65536");
+
   localparam int unsigned ID = $clog2(MaxInFlight);
 
   logic         enable, reset, spl_dsm_commit, afu_dsm_commit, barrier, puc_done, puc_idle;
@@ -73,15 +82,28 @@ module harpoon_afu #(
   logic [57:0]  spl2_context_line, afu_dsm_line, afu_context_line, fault_line;
   logic [57:0]  arline, awline;
   logic [ID:0]  limit, reads_outstanding, writes_outstanding;
-  logic [3:0]   fault_code, fault_request, puc_error, puc_state, spl2_state;
-  logic [31:0]  config_word, state_word;
+  logic [3:0]   puc_state, spl2_state;
+  harpoon_contract_pkg::fault_e   fault_code;
+  harpoon_contract_pkg::request_e fault_request;
+  harpoon_contract_pkg::error_e   puc_error;
+  harpoon_contract_pkg::config_t  config_word;
+  harpoon_contract_pkg::state_t   state_word;
   logic         read_valid, read_ready, data_valid, data_ready;
   logic         write_valid, write_ready, write_dsm, write_idle;
   logic [57:0]  read_line, write_line;
   logic [511:0] read_data, write_data;
 
-  assign config_word = {8'd0, 8'(Lanes), 8'(MaxInFlight), 8'(NumScpu)};
-  assign state_word  = {8'd0, 8'(writes_outstanding), 8'(reads_outstanding), spl2_state, puc_state};
+  always_comb begin
+    config_word           = '0;
+    config_word.scpus     = 8'(NumScpu);
+    config_word.in_flight = 8'(MaxInFlight);
+    config_word.lanes     = 8'(Lanes);
+    state_word            = '0;
+    state_word.puc        = puc_state;
+    state_word.spl2       = spl2_state;
+    state_word.reads      = 8'(reads_outstanding);
+    state_word.writes     = 8'(writes_outstanding);
+  end
 
   afu_registers #(
     .MaxInFlight(MaxInFlight), .Spheres(Spheres), .BatchBarrier(BatchBarrier)

@@ -13,7 +13,10 @@ module credits #(
   output logic available_o,
   output logic all_home_o
 );
-  localparam int unsigned W = $clog2(Count + 1);
+  if (Count < 1)
+    $error("credits: Count must be at least 1");
+
+  localparam int unsigned W = (Count > 0) ? $clog2(Count + 1) : 1;
 
   logic [W-1:0] left_q;
 

@@ -17,6 +17,11 @@ module fifo #(
   output logic [Width-1:0] data_o,
   output logic             empty_o
 );
+  if (Width < 1)
+    $error("fifo: Width must be at least 1");
+  if (Depth < 2 || 1 << $clog2(Depth) != Depth)
+    $error("fifo: Depth must be a power of two, at least 2");
+
   localparam int unsigned PTR = $clog2(Depth);
 
   logic [Width-1:0] mem_q [0:Depth-1];

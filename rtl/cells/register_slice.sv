@@ -14,6 +14,9 @@ module register_slice #(
   input  logic             ready_i,
   output logic [Width-1:0] data_o
 );
+  if (Width < 1)
+    $error("register_slice: Width must be at least 1");
+
   logic             valid_q;
   logic [Width-1:0] data_q;
 

@@ -5,7 +5,7 @@
   always_comb if (!f_past_q) assume (!rst_ni);
   always_comb begin
     assume (!(flush_i && (!idle_o || start_i)));
-    assume (mask_i == 2'b01 || mask_i == 2'b11);
+    assume (result_i.mask == 2'b01 || result_i.mask == 2'b11);
   end
   // Nothing comes after the flush, until the next start. Mode and place are arbitrary but fixed.
   logic f_flushed_q;

@@ -20,9 +20,10 @@ import mutants
 
 HERE = pathlib.Path(__file__).resolve().parent
 RTL = HERE.parent
-PACKAGES = ["pkg/harpoon_contract_pkg.sv"]
+PACKAGES = ["pkg/harpoon_contract_pkg.sv", "pkg/puc_pkg.sv"]
 
-# name: (sources, the last of which is the module's; parameters; k; depth of the mutants' check)
+# name: (sources: its own and those that are proven with it; parameters; k; depth of the mutants'
+# check)
 PROOFS = {
     "fifo": (["cells/fifo.sv"], {"Width": 4, "Depth": 4}, 2, 9),
     "credits": (["cells/credits.sv"], {"Count": 5}, 2, 9),
@@ -33,12 +34,20 @@ PROOFS = {
     "spl2_writer": (["spl2/spl2_writer.sv"], {"MaxInFlight": 4}, 2, 10),
     "spl2_page_table": (["spl2/spl2_page_table.sv"], {"MaxPages": 4}, 2, 5),
     "spl2": (["formal/spl2_stubs.svh", "spl2/spl2.sv"], {"MaxInFlight": 4, "MaxPages": 4}, 2, 15),
-    "puc": (["formal/puc_stubs.svh", "puc/puc.sv"], {}, 3, 20),
+    "puc": (["generated/scpu_pkg.sv", "formal/puc_stubs.svh", "puc/puc_job.sv",
+             "puc/puc_sequence.sv", "puc/puc_counters.sv", "puc/puc_report.sv",
+             "puc/source_numbers.sv", "puc/front_direct.sv", "puc/puc.sv"], {}, 3, 20),
+    "source_numbers": (["puc/source_numbers.sv"], {}, 2, 5),
+    "front_direct": (["puc/front_direct.sv"], {}, 2, 3),
+    "front_indexed": (["formal/front_stubs.svh", "puc/front_indexed.sv"], {"Spheres": 64}, 2, 8),
     "afu_registers": (["afu/afu_registers.sv"], {"MaxInFlight": 4, "Spheres": 64}, 3, 6),
     "scpu_array": (["formal/pipeline_stubs.svh", "puc/scpu_array.sv"],
-                   {"NumScpu": 4, "TagWidth": 2, "Depth": 8, "FirstTurn": 2, "LastTurn": 4,
+                   {"NumScpu": 4, "Depth": 8, "FirstTurn": 2, "LastTurn": 4,
                     "Patience": 2}, 2, 18),
-    "index_lanes": (["formal/pipeline_stubs.svh", "puc/index_lanes.sv"],
+    "index_slices": (["puc/index_slices.sv"], {"Lanes": 3}, 2, 10),
+    "index_compact": (["puc/index_compact.sv"], {"Lanes": 5}, 2, 5),
+    "index_lanes": (["formal/pipeline_stubs.svh", "puc/index_slices.sv", "puc/index_compact.sv",
+                     "puc/index_lanes.sv"],
                     {"Lanes": 3, "Spheres": 64, "Depth": 8, "Patience": 2}, 2, 18),
 }
 TIMEOUT_S = 300
@@ -92,14 +101,16 @@ def prove(name: str, folder: pathlib.Path) -> bool:
 def kill(name: str, mutant: tuple[str, str, str], folder: pathlib.Path) -> bool:
     label, old, new = mutant
     sources, _, _, depth = PROOFS[name]
-    original = RTL / sources[-1]
-    text = original.read_text()
-    if text.count(old) != 1:
-        print(f"STALE   {label}: {text.count(old)} places match {old!r}")
+    texts = {source: (RTL / source).read_text() for source in sources if source.endswith(".sv")}
+    places = {source: text.count(old) for source, text in texts.items() if old in text}
+    if sum(places.values()) != 1:
+        print(f"STALE   {label}: {sum(places.values())} places match {old!r}")
         return False
-    changed = folder / original.name
-    changed.write_text(text.replace(old, new))
-    files = [RTL / source for source in PACKAGES + sources[:-1]] + [changed]
+    files = [RTL / source for source in PACKAGES + sources]
+    original = next(iter(places))
+    changed = folder / pathlib.Path(original).name
+    changed.write_text(texts[original].replace(old, new))
+    files[files.index(RTL / original)] = changed
     status, failed = solve(model(name, files, folder, label), ["-t", str(depth)])
     good = status == "FAILED" and label in failed
     print(f"{'killed' if good else 'SURVIVED'}  {label}" + ("" if good else f": {status} {failed}"),

@@ -15,68 +15,53 @@ module collector #(parameter int unsigned CountWidth = 32) (
   assign table_data_o  = data_i;
   assign source_data_o = data_i;
 endmodule
-module clock_gate (input logic clk_i, enable_i, output logic clk_o);
-  assign clk_o = enable_i;
-endmodule
-module register_slice #(parameter int unsigned Width = 8) (
-  input logic clk_i, rst_ni, valid_i, ready_i,
-  input logic [Width-1:0] data_i,
-  output logic ready_o, valid_o,
-  output logic [Width-1:0] data_o
-);
-  (* anyseq *) logic [Width+1:0] any;
-  assign {ready_o, valid_o, data_o} = any;
-endmodule
-module index_lanes #(
-  parameter int unsigned Lanes = 10, parameter int unsigned Spheres = 16384,
-  parameter int unsigned Depth = 128
+module front_indexed #(
+  parameter int unsigned Lanes = 10, parameter int unsigned Spheres = 16384
 ) (
-  input logic clk_i, clk_free_i, rst_ni, start_i, table_clear_i, table_valid_i, valid_i, ready_i,
+  input logic clk_i, rst_ni, cold_rst_ni, enable_i, start_i, forget_i, load_i, barrier_i, more_i,
+  input logic open_i, lines_done_i, table_valid_i, valid_i, ready_i,
   input logic [31:0] sphere_count_i,
-  input logic [511:0] table_data_i, line_i,
-  input logic [30:0] number_i,
-  input logic [4:0] count_i,
-  input logic last_i, more_i,
+  input logic [511:0] table_data_i,
+  input logic [511:0] line_i,
+  input puc_pkg::source_t source_i,
   output logic ready_o, valid_o, index_error_o, idle_o,
-  output logic [1:0] mask_o,
-  output logic [511:0] pairs_o,
-  output logic [61:0] numbers_o
+  output puc_pkg::beat_t beat_o,
+  output harpoon_contract_pkg::pair_line_t pairs_o,
+  output logic [31:0] loaded_o
 );
-  (* anyseq *) logic [579:0] any;
-  assign {ready_o, valid_o, index_error_o, idle_o, mask_o, pairs_o, numbers_o} = any;
+  (* anyseq *) logic [580:0] any;
+  (* anyconst *) logic [31:0] count;
+  assign {ready_o, valid_o, index_error_o, idle_o, beat_o, pairs_o} = any;
+  assign loaded_o = count;
 endmodule
 module scpu_array #(
-  parameter int unsigned NumScpu = 10, parameter int unsigned TagWidth = 31,
-  parameter int unsigned Depth = 256
+  parameter int unsigned NumScpu = 10, parameter int unsigned Depth = 256
 ) (
   input logic clk_i, rst_ni, spread_i, more_i, valid_i, ready_i,
-  input logic [1:0] mask_i,
-  input logic [511:0] pairs_i,
-  input logic [61:0] tags_i,
+  input puc_pkg::beat_t beat_i,
+  input harpoon_contract_pkg::pair_line_t pairs_i,
   output logic ready_o, valid_o, idle_o,
-  output logic [1:0] mask_o,
-  output logic [511:0] contacts_o,
-  output logic [61:0] tags_o
+  output puc_pkg::result_t result_o,
+  output harpoon_contract_pkg::contact_line_t contacts_o
 );
   (* anyseq *) logic [578:0] any;
-  assign {ready_o, valid_o, idle_o, mask_o, contacts_o, tags_o} = any;
+  assign {ready_o, valid_o, idle_o, result_o, contacts_o} = any;
 endmodule
 module dispatcher (
   input logic clk_i, rst_ni, start_i, flush_i, hits_only_i, valid_i, write_ready_i,
   input logic [57:0] dest_line_i,
   input logic [31:0] dest_lines_i,
-  input logic [1:0] mask_i,
-  input logic [511:0] contacts_i,
-  input logic [61:0] numbers_i,
+  input puc_pkg::result_t result_i,
+  input harpoon_contract_pkg::contact_line_t contacts_i,
   output logic ready_o, write_valid_o, idle_o,
   output logic [57:0] write_line_o,
   output logic [511:0] write_data_o,
-  output logic [31:0] lines_o, hits_o, pairs_o
+  output puc_pkg::results_t results_o
 );
   (* anyseq *) logic [604:0] any;
   (* anyconst *) logic [63:0] counts;
-  assign {ready_o, write_valid_o, idle_o, write_line_o, write_data_o, lines_o} = any;
-  assign {hits_o, pairs_o} = counts;
+  assign {ready_o, write_valid_o, idle_o, write_line_o, write_data_o, results_o.lines} = any;
+  assign {results_o.hits, results_o.pairs} = counts;
 endmodule
 module line_digest (
   input logic clk_i, rst_ni, clear_i, valid_i,

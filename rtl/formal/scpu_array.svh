@@ -24,8 +24,9 @@
     end
   end
   always_comb begin
-    assume (mask_i == 2'b01 || mask_i == 2'b11);
-    assume (pairs_i[0] == (f_in_q == f_index) && pairs_i[256] == (f_in_q == f_index));
+    assume (beat_i.mask != 2'b10);
+    assume (pairs_i.first.p1.x[0] == (f_in_q == f_index)
+            && pairs_i.second.p1.x[0] == (f_in_q == f_index));
     // credits (credits_available, credits_home) and fifo (fifo_prompt, fifo_conserves)
     assume (credit == (f_in_q - f_out_q != 5'(Depth)));
     assume (all_home == (f_in_q == f_out_q));

@@ -16,11 +16,14 @@ module delay_line #(
   input  logic [Width-1:0] d_i,
   output logic [Width-1:0] q_o
 );
-  if (Width < 1 || Latency < 1 || RamMin < 2) begin : gen_illegal
-    $error("delay_line: Width and Latency must be at least 1 and RamMin at least 2");
-  end
+  if (Width < 1)
+    $error("delay_line: Width must be at least 1");
+  if (Latency < 1)
+    $error("delay_line: Latency must be at least 1");
+  if (RamMin < 2)
+    $error("delay_line: RamMin must be at least 2");
 
-  if (Latency == 1) begin : gen_one
+  if (Latency <= 1) begin : gen_one
     logic unused_rst;
     assign unused_rst = rst_ni;
     always_ff @(posedge clk_i) q_o <= d_i;

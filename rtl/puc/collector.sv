@@ -33,6 +33,9 @@ module collector #(
   output logic [511:0] source_data_o,
   output logic         done_o
 );
+  if (CountWidth < 1 || CountWidth > 32)
+    $error("collector: CountWidth must be 1 to 32");
+
   logic [57:0] next_q;
   logic [CountWidth-1:0] table_ask_q, source_ask_q, table_get_q, source_get_q, batch_left_q;
   logic        asked, got_source, batch_open;

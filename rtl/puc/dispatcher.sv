@@ -17,9 +17,8 @@ module dispatcher (
 
   input  logic         valid_i,
   output logic         ready_o,
-  input  logic [1:0]   mask_i,
-  input  logic [511:0] contacts_i,
-  input  logic [61:0]  numbers_i,
+  input  puc_pkg::result_t result_i,
+  input  harpoon_contract_pkg::contact_line_t contacts_i,
 
   output logic         write_valid_o,
   input  logic         write_ready_i,
@@ -27,25 +26,29 @@ module dispatcher (
   output logic [511:0] write_data_o,
 
   output logic         idle_o,
-  output logic [31:0]  lines_o,
-  output logic [31:0]  hits_o,
-  output logic [31:0]  pairs_o
+  output puc_pkg::results_t results_o
 );
   // ---- the one or two records of a beat that are kept ----
   logic         take;
   logic [1:0]   hit, keep;
   logic [255:0] record [0:1];
 
-  for (genvar g = 0; g < 2; g++) begin : gen_record
-    logic [31:0] flow;
-    assign flow    = contacts_i[256*g+224 +: 32];
-    assign hit[g]  = mask_i[g] & (flow != harpoon_contract_pkg::FLOW_FAKE);
-    assign keep[g] = hits_only_i ? hit[g] : mask_i[g];
-    assign record[g] = hits_only_i
-                     ? {flow == harpoon_contract_pkg::FLOW_GRAZING, numbers_i[31*g +: 31],
-                        contacts_i[256*g +: 224]}
-                     : contacts_i[256*g +: 256];
+  harpoon_contract_pkg::hit_t first_record, second_record;
+  always_comb begin
+    first_record  = contacts_i.first;
+    second_record = contacts_i.second;
+    if (hits_only_i) begin
+      first_record.hit.number   = result_i.tags.first;
+      first_record.hit.grazing  = contacts_i.first.flow == harpoon_contract_pkg::FLOW_GRAZING;
+      second_record.hit.number  = result_i.tags.second;
+      second_record.hit.grazing = contacts_i.second.flow == harpoon_contract_pkg::FLOW_GRAZING;
+    end
   end
+  assign hit[0]    = result_i.mask[0] & (contacts_i.first.flow != harpoon_contract_pkg::FLOW_FAKE);
+  assign hit[1]    = result_i.mask[1] & (contacts_i.second.flow != harpoon_contract_pkg::FLOW_FAKE);
+  assign keep      = hits_only_i ? hit : result_i.mask;
+  assign record[0] = first_record;
+  assign record[1] = second_record;
 
   // ---- pairing: a record may wait for its neighbour ----
   // | held | kept | line out          | held then |
@@ -71,9 +74,11 @@ module dispatcher (
   assign write_line_o  = dest_line_i + {26'd0, lines_q};
   assign write_data_o  = out_q;
   assign idle_o        = ~out_valid_q & ~valid_i;
-  assign lines_o       = lines_q;
-  assign hits_o        = hits_q;
-  assign pairs_o       = pairs_q;
+  always_comb begin
+    results_o.lines = lines_q;
+    results_o.hits  = hits_q;
+    results_o.pairs = pairs_q;
+  end
 
   always_ff @(posedge clk_i) begin
     if (!rst_ni || start_i) begin
@@ -86,7 +91,7 @@ module dispatcher (
     end else begin
       if (take) begin
         hits_q  <= hits_q + 32'(hit[0]) + 32'(hit[1]);
-        pairs_q <= pairs_q + 32'(mask_i[0]) + 32'(mask_i[1]);
+        pairs_q <= pairs_q + 32'(result_i.mask[0]) + 32'(result_i.mask[1]);
         if (keep != 2'b00) held_q <= held_q ? (&keep) : ~(&keep);
       end
       if (flush_i) held_q <= 1'b0;

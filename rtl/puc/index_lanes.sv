@@ -4,11 +4,11 @@
 // Lanes pairs a cycle are looked up in the sphere table and decided by scpu_cull (the exact miss
 // test without a square root). What survives, by index, is compacted to two pairs a cycle, looked
 // up again and handed to the SCPUs, which decide all over: the cull may err only towards keeping.
-// What is left of a line that is too short for a slice of Lanes pairs waits for the next line, so
-// that every slice is full but the last. Credits reserve the place of every slice that enters.
+// Credits reserve the place of every slice that enters.
 //
-//   line -> slice -> table (2) -> scpu_cull -> decisions -+
-//             +----> indices, numbers (queue) ------------+-> compact -> table (2) -> pairs
+//   line -> index_slices -> table (2) -> scpu_cull -> decisions -+
+//                  +----> indices, numbers (queue) --------------+-> index_compact -> table (2)
+//                                                                      -> pairs
 //
 // `last_i`: nothing of this line is to wait; a line that is not the last has 16 pairs. The cull
 // lanes move all together or not at all; while `more_i` says that lines are on their way, they wait
@@ -49,10 +49,18 @@ module index_lanes #(
   output logic         index_error_o,
   output logic         idle_o
 );
-  localparam int unsigned PER_LINE = harpoon_contract_pkg::INDEX_PAIRS_PER_LINE;
-  localparam int unsigned W        = $clog2(Spheres);
+  if (Lanes < 1 || Lanes > 16)
+    $error("index_lanes: Lanes must be 1 to 16");
+  if (Spheres < 8 || Spheres > 65536 || 1 << $clog2(Spheres) != Spheres)
+    $error("index_lanes: Spheres must be a power of two, 8 to 65536");
+  if (Depth < 2 || 1 << $clog2(Depth) != Depth)
+    $error("index_lanes: Depth must be a power of two, at least 2");
+  if (Patience < 1)
+    $error("index_lanes: Patience must be at least 1");
+
+  localparam int unsigned W        = (Spheres > 4) ? $clog2(Spheres) : 3;
   localparam int unsigned PORTS    = 2*Lanes + 4;
-  localparam int unsigned IDX      = 32*Lanes;
+  localparam int unsigned IDX      = (Lanes > 0) ? 32*Lanes : 32;
 
   // ---- table, filled row by row ----
   logic [W-3:0]         row_q;
@@ -74,44 +82,33 @@ module index_lanes #(
     .sphere_o     (port_sphere)
   );
 
-  // ---- slice: the next Lanes pairs of a window, which is what was kept and then the line ----
-  localparam int unsigned KEEP  = (Lanes > 1) ? Lanes - 1 : 1;
-  localparam int unsigned PLACE = $clog2(KEEP + PER_LINE);
-  localparam int unsigned SELECT = $clog2(32*KEEP + 512 + IDX);
-  logic [PLACE-1:0]   place_q;    // of the slice's first pair; KEEP: nothing is kept
-  logic [32*KEEP-1:0] kept_q;
-  logic               credit, issue, used_up, slice_valid_q, all_home;
-  logic [5:0]         left;
-  logic [IDX-1:0]     slice, slice_q;
-  logic [Lanes-1:0]   present, present_q;
-  logic [32*KEEP+511+IDX:0] window;
-
-  assign left    = 6'(KEEP) + {1'b0, count_i} - 6'(place_q);
-  assign used_up = (left <= 6'(Lanes)) | (~last_i & (left < 6'(2*Lanes)));
-  assign issue   = valid_i & credit;
-  assign ready_o = credit & used_up;
-  assign window  = {{IDX{1'b0}}, line_i, kept_q};
-  assign slice   = window[SELECT'({place_q, 5'd0}) +: IDX];
-  for (genvar g = 0; g < Lanes; g++) begin : gen_present
-    assign present[g] = 6'(g) < left;
-  end
-
+  // ---- slices of Lanes pairs; a credit for a place behind is taken with each ----
+  logic             credit, issue, slice_there, slice_valid_q, all_home, none_kept;
+  logic [IDX-1:0]   slice, slice_q;
+  logic [Lanes-1:0] present, present_q;
+  logic [30:0]      slice_number;
+  index_slices #(.Lanes(Lanes)) u_slicer (
+    .clk_i, .rst_ni,
+    .start_i,
+    .valid_i,
+    .ready_o,
+    .line_i,
+    .number_i,
+    .count_i,
+    .last_i,
+    .valid_o   (slice_there),
+    .ready_i   (credit),
+    .slice_o   (slice),
+    .present_o (present),
+    .number_o  (slice_number),
+    .empty_o   (none_kept)
+  );
+  assign issue = slice_there & credit;
   always_ff @(posedge clk_i) begin
-    if (!rst_ni || start_i) begin
-      place_q       <= PLACE'(KEEP);
-      slice_valid_q <= 1'b0;
-    end else begin
-      slice_valid_q <= issue;
-      if (issue) begin
-        if (~used_up) place_q <= place_q + PLACE'(Lanes);
-        else if (left <= 6'(Lanes)) place_q <= PLACE'(KEEP);
-        else place_q <= PLACE'(6'(KEEP + Lanes) - left);
-      end
-    end
+    slice_valid_q <= rst_ni & ~start_i & issue;
     if (issue) begin
       slice_q   <= slice;
       present_q <= present;
-      if (used_up) kept_q <= line_i[511 -: 32*KEEP];
     end
   end
 
@@ -188,7 +185,7 @@ module index_lanes #(
     .clk_i, .rst_ni,
     .valid_i (issue),
     .ready_o (queue_ready),
-    .data_i  ({number_i + 31'(place_q) - 31'(KEEP), present, slice}),
+    .data_i  ({slice_number, present, slice}),
     .valid_o (head_queued),
     .ready_i (head_done),
     .data_o  ({head_number, head_present, head_slice}),
@@ -202,41 +199,27 @@ module index_lanes #(
     .all_home_o  (all_home)
   );
 
-  // ---- compact: the first two survivors of the head, then the rest ----
-  logic [Lanes-1:0] sent_q, survivors, rest, first_hot, second_hot;
-  logic [1:0]       found;
-  logic [31:0]      first_idx, second_idx;
-  logic [30:0]      first_number, second_number;
-  logic             look_ready, compact;
-
-  assign survivors  = head_present & ~head_miss & ~sent_q;
-  assign first_hot  = survivors & (~survivors + Lanes'(1));
-  assign rest       = survivors & ~first_hot;
-  assign second_hot = rest & (~rest + Lanes'(1));
-  assign found      = {|rest, |survivors};
-  assign head_done  = head_valid & ((rest & ~second_hot) == '0) & (look_ready | ~found[0]);
-  assign compact    = head_valid & found[0] & look_ready;
-  always_comb begin
-    first_idx     = '0;
-    second_idx    = '0;
-    first_number  = head_number;
-    second_number = head_number;
-    for (int unsigned i = 0; i < Lanes; i++) begin
-      if (first_hot[i]) begin
-        first_idx    = head_slice[32*i +: 32];
-        first_number = head_number + 31'(i);
-      end
-      if (second_hot[i]) begin
-        second_idx    = head_slice[32*i +: 32];
-        second_number = head_number + 31'(i);
-      end
-    end
-  end
-  always_ff @(posedge clk_i) begin
-    if (!rst_ni) sent_q <= '0;
-    else if (head_done) sent_q <= '0;
-    else if (compact) sent_q <= sent_q | first_hot | second_hot;
-  end
+  // ---- compact: the survivors of the head, two a cycle ----
+  logic [1:0]  found;
+  logic        look_ready, compact;
+  harpoon_contract_pkg::index_pair_t first_idx, second_idx;
+  logic [30:0] first_number, second_number;
+  index_compact #(.Lanes(Lanes)) u_compact (
+    .clk_i, .rst_ni,
+    .valid_i         (head_valid),
+    .done_o          (head_done),
+    .slice_i         (head_slice),
+    .present_i       (head_present),
+    .miss_i          (head_miss),
+    .number_i        (head_number),
+    .valid_o         (compact),
+    .ready_i         (look_ready),
+    .mask_o          (found),
+    .first_o         (first_idx),
+    .second_o        (second_idx),
+    .first_number_o  (first_number),
+    .second_number_o (second_number)
+  );
 
   // ---- look up again: two stages that move together ----
   logic [2:0]  look_valid_q;
@@ -254,8 +237,8 @@ module index_lanes #(
       look_number_q[0] <= {second_number, first_number};
       look_number_q[1] <= look_number_q[0];
       look_number_q[2] <= look_number_q[1];
-      look_idx_q       <= {second_idx[16 +: W], second_idx[0 +: W],
-                           first_idx[16 +: W], first_idx[0 +: W]};
+      look_idx_q       <= {second_idx.p2[W-1:0], second_idx.p1[W-1:0],
+                           first_idx.p2[W-1:0], first_idx.p1[W-1:0]};
     end
   end
   for (genvar g = 0; g < 4; g++) begin : gen_again
@@ -267,7 +250,7 @@ module index_lanes #(
   assign mask_o    = look_mask_q[2];
   assign numbers_o = look_number_q[2];
   assign pairs_o   = port_sphere[256*Lanes +: 512];
-  assign idle_o    = all_home & (look_valid_q == '0) & (place_q == PLACE'(KEEP));
+  assign idle_o    = all_home & (look_valid_q == '0) & none_kept;
 
   // the credits make these constant; they are outputs of general cells
   logic unused;

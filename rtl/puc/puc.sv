@@ -1,16 +1,16 @@
-// The Processing Units Controller: control-memory handshake, collector, SCPUs, dispatcher, and the
-// orderly end of a transaction.
+// The Processing Units Controller: its parts, and who of them has the ports to SPL2.
 //
-// Life: wait until SPL2 is on; fetch VAFU2_CNTXT and the control line; poll the control line until
-// its start byte is 0xFF; write the AFU ID into the DSM; run n_col pairs; then, each step only
-// after all writes before it were acknowledged: counters into the DSM, Status into VAFU2_CNTXT.
-// What the control line or the context got wrong ends the same way, with an error code and no
-// results.
+//                puc_sequence ---- start, flush, which line ----> puc_report --+-> own lines
+//                     |                                                ^       |
+//   control <- puc_job (context, control line)            puc_counters-+       |
+//                                                                              |
+//   Src -> collector -> source_numbers -+-> front_direct --+-> scpu_array -> dispatcher -> Dst
+//                                       +-> front_indexed -+
+//
+// A front end makes the stream of pairs (puc_pkg) from lines of Src. What a run is made of is the
+// job's (puc_job), what happens when is the sequence's, whose head tells the life of a transaction.
 // After the end (`done_o`) nothing happens until reset. Reset forgets everything but the sphere
 // table and how much of it was loaded.
-//
-//   Src -> collector -+-> (2 pairs) ------------------+-> scpu_array -> dispatcher -> Dst
-//                     +-> index_lanes (16 index pairs)-+
 module puc #(
   parameter int unsigned NumScpu = 10,
   parameter int unsigned Lanes   = 10,
@@ -26,10 +26,10 @@ module puc #(
   input  logic         dsm_commit_i,  // AFU_DSM_BASE was written
   input  logic [57:0]  context_line_i,
   input  logic         barrier_i,
-  input  logic [31:0]  config_i,      // as the register CONFIG
+  input  harpoon_contract_pkg::config_t config_i,
   output logic         done_o,
   output logic         idle_o,
-  output logic [3:0]   error_o,
+  output harpoon_contract_pkg::error_e  error_o,
   output logic [3:0]   state_o,
 
   output logic         read_valid_o,
@@ -45,66 +45,107 @@ module puc #(
   output logic [511:0] write_data_o,
   input  logic         write_idle_i
 );
-  localparam int unsigned PER_LINE = harpoon_contract_pkg::INDEX_PAIRS_PER_LINE;
+  if (NumScpu != 1 && (NumScpu == 0 || NumScpu > 254 || NumScpu % 2 != 0))
+    $error("puc: NumScpu must be 1 or even, up to 254");
+  if (Lanes < 1 || Lanes > 16)
+    $error("puc: Lanes must be 1 to 16");
+  if (Spheres < 8 || Spheres > 65536 || 1 << $clog2(Spheres) != Spheres)
+    $error("puc: Spheres must be a power of two, 8 to 65536");
+  if (1 << $clog2(Depth) != Depth || Depth <= scpu_pkg::Latency + 5)
+    $error("puc: Depth must be a power of two above the latency");
 
-  typedef enum logic [3:0] {
-    Idle, Fetch, Judge, Fold, Send, Run, Flush, Settle, Done
-  } state_e;
-  typedef enum logic [2:0] {SendId, SendLatency, SendPerformance, SendStatus, SendNothing} line_e;
-  state_e state_q;
-  line_e  line_q;
+  // ---- the sequence, and the job ----
+  puc_pkg::state_e state;
+  puc_pkg::line_e  which;
+  puc_pkg::job_t   job;
+  puc_pkg::plan_t  plan;
+  logic            start, running, ask_all, ask_again, got_control, go, forget, fetching, own_write;
+  logic            run_over, job_read, fold_control;
+  logic [57:0]     job_line;
+  logic [63:0]     fold;
+  logic [511:0]    control_line, own_line;
+  harpoon_contract_pkg::error_e verdict;
 
-  // ---- what the context and the control line said ----
-  logic [57:0] source_q, dest_q, spheres_q;
-  logic [31:0] source_lines_q, dest_lines_q, sphere_count_q, pair_count_q, format_q, sequence_q;
-  logic        load_table_q, go_q, forget_q, context_good_q, context_judge_q;
-  logic [63:0] check_q, fold;
-  logic [1:0]  ask_q;        // bit 0: context, bit 1: control line, still to request
-  logic        got_context_q, check_good, take_control_data;
+  assign fetching  = state == puc_pkg::Fetch;
+  assign own_write = state == puc_pkg::Send;
+  assign done_o    = state == puc_pkg::Done;
+  assign idle_o    = (state == puc_pkg::Idle) | done_o;
+  assign state_o   = state;
 
-  // ---- consequences ----
-  logic        indexed, hits_only;
-  logic [31:0] lines_needed, table_lines;
-  logic [3:0]  verdict, error_q;
-  assign indexed      = format_q == harpoon_contract_pkg::FORMAT_INDEXED_HITS;
-  assign hits_only    = format_q != harpoon_contract_pkg::FORMAT_DIRECT;
-  assign lines_needed = indexed ? {4'd0, pair_count_q[31:4]} + 32'(pair_count_q[3:0] != '0)
-                                : {1'b0, pair_count_q[31:1]} + 32'(pair_count_q[0]);
-  assign table_lines  = (indexed & load_table_q)
-                      ? {2'd0, sphere_count_q[31:2]} + 32'(sphere_count_q[1:0] != '0) : '0;
-  assign check_good   = check_q == (harpoon_contract_pkg::CHECK_SEED ^ fold);
-  always_comb begin
-    if (!context_good_q) verdict = harpoon_contract_pkg::ERROR_BAD_CONTEXT;
-    else if (!check_good) verdict = harpoon_contract_pkg::ERROR_BAD_CONTROL;
-    else if (format_q >= harpoon_contract_pkg::FORMAT_COUNT)
-      verdict = harpoon_contract_pkg::ERROR_BAD_FORMAT;
-    else if (lines_needed > source_lines_q) verdict = harpoon_contract_pkg::ERROR_SOURCE_TOO_SHORT;
-    else if (indexed & load_table_q & (sphere_count_q > Spheres))
-      verdict = harpoon_contract_pkg::ERROR_TOO_MANY_SPHERES;
-    else verdict = harpoon_contract_pkg::ERROR_NONE;
-  end
+  puc_sequence u_sequence (
+    .clk_i, .rst_ni, .cold_rst_ni,
+    .spl2_on_i,
+    .dsm_commit_i,
+    .got_control_i  (got_control),
+    .go_i           (go),
+    .verdict_i      (verdict),
+    .run_over_i     (run_over),
+    .index_error_i  (index_error),
+    .results_idle_i (dispatcher_idle),
+    .no_results_i   (results.lines == '0),
+    .writes_idle_i  (write_idle_i),
+    .write_ready_i,
+    .ask_all_o      (ask_all),
+    .ask_again_o    (ask_again),
+    .start_o        (start),
+    .running_o      (running),
+    .state_o        (state),
+    .line_o         (which),
+    .error_o
+  );
+  puc_job #(.Spheres(Spheres)) u_job (
+    .clk_i, .rst_ni,
+    .ask_all_i     (ask_all),
+    .ask_again_i   (ask_again),
+    .fetch_i       (fetching),
+    .context_line_i,
+    .read_valid_o  (job_read),
+    .read_ready_i,
+    .read_line_o   (job_line),
+    .data_valid_i,
+    .data_i,
+    .fold_valid_o  (fold_control),
+    .fold_line_o   (control_line),
+    .fold_i        (fold),
+    .got_control_o (got_control),
+    .go_o          (go),
+    .forget_o      (forget),
+    .job_o         (job),
+    .plan_o        (plan),
+    .verdict_o     (verdict)
+  );
+  line_fold u_fold (
+    .clk_i,
+    .valid_i    (fold_control),
+    .line_i     (control_line),
+    .or_valid_i (state == puc_pkg::Fold),
+    .or_line_i  (own_line),
+    .fold_o     (fold)
+  );
 
-  // ---- collector ----
-  logic         start_q, collector_read, collector_data_ready, collector_done, drained, table_valid;
-  logic         source_valid, source_ready;
-  logic [57:0]  collector_line;
-  logic [511:0] table_data, source_data;
+  // ---- lines in ----
+  logic             collector_read, collector_data_ready, collector_done, table_valid;
+  logic             source_valid, source_ready, drained, line_taken, more;
+  logic [57:0]      collector_line;
+  logic [511:0]     table_data, source_data;
+  puc_pkg::source_t source;
+
   collector u_collector (
     .clk_i, .rst_ni,
-    .start_i        (start_q),
-    .table_line_i   (spheres_q),
-    .table_lines_i  (table_lines),
-    .source_line_i  (source_q),
-    .source_lines_i (lines_needed),
-    .barrier_i      (barrier_i),
-    .batch_lines_i  (indexed ? 32'd1 : 32'((NumScpu + 1) / 2)),
+    .start_i        (start),
+    .table_line_i   (job.spheres_line),
+    .table_lines_i  (plan.table_lines),
+    .source_line_i  (job.source_line),
+    .source_lines_i (plan.source_lines),
+    .barrier_i,
+    .batch_lines_i  (plan.indexed ? 32'd1 : 32'((NumScpu + 1) / 2)),
     .drained_i      (drained),
     .read_valid_o   (collector_read),
-    .read_ready_i   (read_ready_i & (state_q != Fetch)),
+    .read_ready_i   (read_ready_i & ~fetching),
     .read_line_o    (collector_line),
-    .data_valid_i   (data_valid_i & (state_q != Fetch)),
+    .data_valid_i   (data_valid_i & ~fetching),
     .data_ready_o   (collector_data_ready),
-    .data_i         (data_i),
+    .data_i,
     .table_valid_o  (table_valid),
     .table_data_o   (table_data),
     .source_valid_o (source_valid),
@@ -112,390 +153,169 @@ module puc #(
     .source_data_o  (source_data),
     .done_o         (collector_done)
   );
-
-  logic more;   // pairs are on their way, and worth waiting for
-  assign more = ~collector_done & ~barrier_i;
-
-  // ---- numbering: pairs left, number of the next ----
-  logic [31:0] left_q, number_q;
-  always_ff @(posedge clk_i) begin
-    if (start_q) begin
-      left_q   <= pair_count_q;
-      number_q <= '0;
-    end else if (source_valid & source_ready) begin
-      left_q   <= left_q - (indexed ? 32'(PER_LINE) : 32'd2);
-      number_q <= number_q + (indexed ? 32'(PER_LINE) : 32'd2);
-    end
-  end
-
-  // ---- index lanes ----
-  logic         lanes_valid, lanes_ready, lane_beat_valid, lanes_idle, index_error;
-  logic [1:0]   lane_mask;
-  logic [511:0] lane_pairs;
-  logic [61:0]  lane_numbers;
-  logic [31:0]  loaded_q;
-  logic         table_loading_q;
-  assign lanes_valid = source_valid & indexed & ~table_loading_q;
-
-  // Their clock is gated in the other formats, but for the start, which clears an index error, and
-  // a reset, which the cull lanes see a cycle late. The slice keeps those formats' lines away.
-  logic         lanes_clk, rst_nq, line_valid, line_ready, line_last;
-  logic [511:0] line;
-  logic [30:0]  line_number;
-  logic [4:0]   line_count;
-  always_ff @(posedge clk_i) rst_nq <= rst_ni;
-  clock_gate u_lanes_gate (
+  source_numbers u_numbers (
     .clk_i,
-    .enable_i (indexed | start_q | ~rst_ni | ~rst_nq),
-    .clk_o    (lanes_clk)
+    .start_i      (start),
+    .pair_count_i (job.pair_count),
+    .indexed_i    (plan.indexed),
+    .taken_i      (source_valid & source_ready),
+    .source_o     (source)
   );
-  register_slice #(.Width(512 + 31 + 5 + 1)) u_slice (
-    .clk_i   (lanes_clk),
-    .rst_ni,
-    .valid_i (lanes_valid),
-    .ready_o (lanes_ready),
-    .data_i  ({barrier_i | (left_q <= 32'(PER_LINE)),
-               (left_q >= 32'(PER_LINE)) ? 5'(PER_LINE) : left_q[4:0],
-               number_q[30:0], source_data}),
-    .valid_o (line_valid),
-    .ready_i (line_ready),
-    .data_o  ({line_last, line_count, line_number, line})
+  assign line_taken = data_valid_i & collector_data_ready & ~fetching;
+  assign more       = ~collector_done & ~barrier_i;   // lines that are worth waiting for
+
+  // ---- front ends ----
+  logic           beat_valid, array_ready, ended_q, last_taken;
+  logic           direct_valid, direct_ready, indexed_valid, indexed_ready, indexed_idle;
+  logic           index_error;
+  logic [31:0]    loaded;
+  puc_pkg::beat_t beat, direct_beat, indexed_beat;
+  harpoon_contract_pkg::pair_line_t pairs, direct_pairs, indexed_pairs;
+
+  front_direct u_direct (
+    .open_i       (~ended_q),
+    .lines_done_i (collector_done),
+    .valid_i      (source_valid),
+    .ready_o      (direct_ready),
+    .source_i     (source),
+    .line_i       (source_data),
+    .valid_o      (direct_valid),
+    .ready_i      (array_ready),
+    .beat_o       (direct_beat),
+    .pairs_o      (direct_pairs)
   );
-  index_lanes #(.Lanes(Lanes), .Spheres(Spheres)) u_lanes (
-    .clk_i          (lanes_clk),
-    .clk_free_i     (clk_i),
-    .rst_ni,
-    .start_i        (start_q),
-    .sphere_count_i (loaded_q),
-    .table_clear_i  (start_q),
+  front_indexed #(.Lanes(Lanes), .Spheres(Spheres)) u_indexed (
+    .clk_i, .rst_ni, .cold_rst_ni,
+    .enable_i       (plan.indexed),
+    .start_i        (start),
+    .forget_i       (ask_again & forget),
+    .load_i         (plan.indexed & job.load_table),
+    .sphere_count_i (job.sphere_count),
+    .barrier_i,
+    .more_i         (more),
+    .open_i         (~ended_q),
+    .lines_done_i   (collector_done),
     .table_valid_i  (table_valid),
     .table_data_i   (table_data),
-    .valid_i        (line_valid),
-    .ready_o        (line_ready),
-    .line_i         (line),
-    .number_i       (line_number),
-    .count_i        (line_count),
-    .last_i         (line_last),
-    .more_i         (more),
-    .valid_o        (lane_beat_valid),
-    .ready_i        (array_ready & indexed),
-    .mask_o         (lane_mask),
-    .pairs_o        (lane_pairs),
-    .numbers_o      (lane_numbers),
+    .valid_i        (source_valid),
+    .ready_o        (indexed_ready),
+    .source_i       (source),
+    .line_i         (source_data),
+    .valid_o        (indexed_valid),
+    .ready_i        (array_ready),
+    .beat_o         (indexed_beat),
+    .pairs_o        (indexed_pairs),
+    .loaded_o       (loaded),
     .index_error_o  (index_error),
-    .idle_o         (lanes_idle)
+    .idle_o         (indexed_idle)
   );
-  // what was loaded counts once it is all there
+  assign source_ready = plan.indexed ? indexed_ready : direct_ready;
+  assign beat_valid   = plan.indexed ? indexed_valid : direct_valid;
+  assign beat         = plan.indexed ? indexed_beat : direct_beat;
+  assign pairs        = plan.indexed ? indexed_pairs : direct_pairs;
+
+  // ---- the stream to its end: every pair went to the SCPUs, and its result to Dst ----
+  assign last_taken = beat_valid & array_ready & beat.last;
+  assign drained    = indexed_idle & array_idle & dispatcher_idle;
+  assign run_over   = (ended_q | (last_taken & ~beat.mask[0])) & collector_done & drained;
   always_ff @(posedge clk_i) begin
-    if (!cold_rst_ni || ((state_q == Judge) & forget_q & ~go_q)) begin
-      loaded_q        <= '0;
-      table_loading_q <= 1'b0;
-    end else if (!rst_ni) begin
-      table_loading_q <= 1'b0;
-    end else if (start_q & indexed & load_table_q) begin
-      loaded_q        <= '0;
-      table_loading_q <= 1'b1;
-    end else if (table_loading_q & (source_valid | collector_done)) begin
-      loaded_q        <= sphere_count_q;
-      table_loading_q <= 1'b0;
-    end
+    if (!rst_ni) ended_q <= 1'b1;
+    else if (start) ended_q <= 1'b0;
+    else if (last_taken) ended_q <= 1'b1;
   end
 
-  // ---- SCPUs ----
-  logic         array_valid, array_ready, array_idle, result_valid, result_ready;
-  logic [1:0]   result_mask;
-  logic [511:0] result_contacts;
-  logic [61:0]  result_numbers;
-  assign array_valid  = indexed ? lane_beat_valid : source_valid;
-  assign source_ready = indexed ? lanes_ready & ~table_loading_q : array_ready;
+  // ---- SCPUs, dispatcher ----
+  logic              array_idle, result_valid, result_ready;
+  logic              dispatcher_write, dispatcher_ready, dispatcher_idle, line_sent;
+  logic [57:0]       dispatcher_line;
+  logic [511:0]      dispatcher_data;
+  puc_pkg::result_t  result;
+  puc_pkg::results_t results;
+  harpoon_contract_pkg::contact_line_t contacts;
+
   scpu_array #(.NumScpu(NumScpu), .Depth(Depth)) u_array (
     .clk_i, .rst_ni,
     .spread_i   (barrier_i),
     .more_i     (more),
-    .valid_i    (array_valid),
+    .valid_i    (beat_valid),
     .ready_o    (array_ready),
-    .mask_i     (indexed ? lane_mask : {left_q > 32'd1, 1'b1}),
-    .pairs_i    (indexed ? lane_pairs : source_data),
-    .tags_i     (indexed ? lane_numbers : {number_q[30:0] | 31'd1, number_q[30:0]}),
+    .beat_i     (beat),
+    .pairs_i    (pairs),
     .valid_o    (result_valid),
     .ready_i    (result_ready),
-    .mask_o     (result_mask),
-    .contacts_o (result_contacts),
-    .tags_o     (result_numbers),
+    .result_o   (result),
+    .contacts_o (contacts),
     .idle_o     (array_idle)
   );
-
-  // ---- dispatcher ----
-  logic         dispatcher_write, dispatcher_ready, dispatcher_idle;
-  logic [57:0]  dispatcher_line;
-  logic [511:0] dispatcher_data;
-  logic [31:0]  lines_written, hits, scpu_pairs;
   dispatcher u_dispatcher (
     .clk_i, .rst_ni,
-    .start_i       (start_q),
-    .flush_i       (state_q == Flush),
-    .hits_only_i   (hits_only),
-    .dest_line_i   (dest_q),
-    .dest_lines_i  (dest_lines_q),
+    .start_i       (start),
+    .flush_i       (state == puc_pkg::Flush),
+    .hits_only_i   (plan.hits_only),
+    .dest_line_i   (job.dest_line),
+    .dest_lines_i  (job.dest_lines),
     .valid_i       (result_valid),
     .ready_o       (result_ready),
-    .mask_i        (result_mask),
-    .contacts_i    (result_contacts),
-    .numbers_i     (result_numbers),
+    .result_i      (result),
+    .contacts_i    (contacts),
     .write_valid_o (dispatcher_write),
     .write_ready_i (dispatcher_ready),
     .write_line_o  (dispatcher_line),
     .write_data_o  (dispatcher_data),
     .idle_o        (dispatcher_idle),
-    .lines_o       (lines_written),
-    .hits_o        (hits),
-    .pairs_o       (scpu_pairs)
+    .results_o     (results)
   );
-  assign drained = ~line_valid & lanes_idle & array_idle & dispatcher_idle;
+  assign line_sent = dispatcher_write & dispatcher_ready;
 
-  // ---- digests of what came and what went ----
-  logic        line_taken, line_sent;
-  logic [63:0] source_digest, dest_digest;
-  assign line_taken = data_valid_i & collector_data_ready & (state_q != Fetch);
-  assign line_sent  = dispatcher_write & dispatcher_ready;
-  line_digest u_source_digest (
-    .clk_i, .rst_ni, .clear_i(start_q), .valid_i(line_taken), .line_i(data_i),
-    .digest_o(source_digest)
+  // ---- counters, and the PUC's own lines ----
+  puc_pkg::counters_t counters;
+  puc_pkg::digests_t  digests;
+  logic               own_dsm;
+  logic [57:0]        own_address;
+  logic [511:0]       own_data;
+
+  puc_counters u_counters (
+    .clk_i, .rst_ni,
+    .start_i        (start),
+    .running_i      (running),
+    .waiting_i      (active_i & (fetching | (state == puc_pkg::Idle))),
+    .settled_i      ((state == puc_pkg::Settle) & (which == puc_pkg::SendLatency)),
+    .read_stall_i   (collector_read & ~read_ready_i),
+    .write_stall_i  (dispatcher_write & ~dispatcher_ready),
+    .line_taken_i   (line_taken),
+    .line_i         (data_i),
+    .line_sent_i    (line_sent),
+    .sent_line_i    (dispatcher_data),
+    .no_line_sent_i (results.lines == '0),
+    .counters_o     (counters),
+    .digests_o      (digests)
   );
-  line_digest u_dest_digest (
-    .clk_i, .rst_ni, .clear_i(start_q), .valid_i(line_sent), .line_i(dispatcher_data),
-    .digest_o(dest_digest)
+  puc_report #(.Spheres(Spheres)) u_report (
+    .which_i        (which),
+    .context_line_i,
+    .config_i,
+    .sequence_i     (job.sequence_word),
+    .loaded_i       (loaded),
+    .error_i        (error_o),
+    .counters_i     (counters),
+    .digests_i      (digests),
+    .results_i      (results),
+    .fold_i         (fold),
+    .line_o         (own_line),
+    .data_o         (own_data),
+    .dsm_o          (own_dsm),
+    .write_line_o   (own_address)
   );
-
-  // ---- counters, from the start signal on ----
-  logic [31:0] cycles_q, spl2_cycles_q, first_line_q, first_write_q, last_write_q;
-  logic [31:0] read_stalls_q, write_stalls_q, lines_read_q;
-  logic        running_q, waiting;
-  assign waiting = (state_q == Idle) | (state_q == Fetch);
-  always_ff @(posedge clk_i) begin
-    if (!rst_ni) begin
-      cycles_q       <= '0;
-      spl2_cycles_q  <= '0;
-      first_line_q   <= '0;
-      first_write_q  <= '0;
-      last_write_q   <= '0;
-      read_stalls_q  <= '0;
-      write_stalls_q <= '0;
-      lines_read_q   <= '0;
-    end else begin
-      if (active_i & waiting) spl2_cycles_q <= spl2_cycles_q + 32'd1;
-      if (running_q) cycles_q <= cycles_q + 32'd1;
-      if (line_taken) begin
-        lines_read_q <= lines_read_q + 32'd1;
-        if (lines_read_q == '0) first_line_q <= cycles_q;
-      end
-      if (line_sent & (lines_written == '0)) first_write_q <= cycles_q;
-      if ((state_q == Settle) & (line_q == SendLatency)) last_write_q <= cycles_q;
-      if (collector_read & ~read_ready_i) read_stalls_q <= read_stalls_q + 32'd1;
-      if (dispatcher_write & ~dispatcher_ready) write_stalls_q <= write_stalls_q + 32'd1;
-    end
-  end
-
-  // Without results there is nothing to be acknowledged before the counters.
-  logic no_results;
-  assign no_results = (line_q == SendLatency) & (lines_written == '0);
 
   // ---- ports to SPL2 ----
-  logic own_write;
-  assign own_write         = state_q == Send;
-  assign take_control_data = (state_q == Fetch) & data_valid_i;
-  assign data_ready_o      = (state_q == Fetch) | collector_data_ready;
-  assign read_valid_o      = (state_q == Fetch) ? ask_q != '0 : collector_read;
-  assign read_line_o       = (state_q == Fetch)
-                           ? (ask_q[0] ? context_line_i
-                                       : context_line_i + harpoon_contract_pkg::CONTROL_LINE)
-                           : collector_line;
-  assign dispatcher_ready  = write_ready_i & ~own_write;
-  assign write_valid_o     = own_write | dispatcher_write;
-  assign write_dsm_o       = own_write & (line_q != SendStatus);
-  assign write_data_o      = own_write ? {harpoon_contract_pkg::CHECK_SEED ^ fold, own_line[447:0]}
-                                       : dispatcher_data;
-  always_comb begin
-    write_line_o = dispatcher_line;
-    if (own_write) begin
-      unique case (line_q)
-        SendId:          write_line_o = {52'd0, harpoon_contract_pkg::DSM_ID_LINE};
-        SendLatency:     write_line_o = {52'd0, harpoon_contract_pkg::DSM_LATENCY_LINE};
-        SendPerformance: write_line_o = {52'd0, harpoon_contract_pkg::DSM_PERFORMANCE_LINE};
-        default:         write_line_o = context_line_i + harpoon_contract_pkg::STATUS_LINE;
-      endcase
-    end
-  end
-
-  // ---- the lines that the PUC itself writes ----
-  logic [511:0] own_line;
-  always_comb begin
-    own_line = '0;
-    unique case (line_q)
-      SendId: begin
-        own_line[harpoon_contract_pkg::DSM_ID_LOW_LSB +: 64]  = harpoon_contract_pkg::AFU_ID_LOW;
-        own_line[harpoon_contract_pkg::DSM_ID_HIGH_LSB +: 64] = harpoon_contract_pkg::AFU_ID_HIGH;
-        own_line[harpoon_contract_pkg::DSM_ID_CONFIG_LSB +: 32] = config_i;
-        own_line[harpoon_contract_pkg::DSM_ID_TABLE_SPHERES_LSB +: 32] = Spheres;
-        own_line[harpoon_contract_pkg::DSM_ID_SEQUENCE_LSB +: 32] = sequence_q;
-      end
-      SendLatency: begin
-        own_line[harpoon_contract_pkg::DSM_LATENCY_SEQUENCE_LSB +: 32]     = sequence_q;
-        own_line[harpoon_contract_pkg::DSM_LATENCY_FIRST_LINE_LSB +: 32]   = first_line_q;
-        own_line[harpoon_contract_pkg::DSM_LATENCY_FIRST_WRITE_LSB +: 32]  = first_write_q;
-        own_line[harpoon_contract_pkg::DSM_LATENCY_LAST_WRITE_LSB +: 32]   = last_write_q;
-        own_line[harpoon_contract_pkg::DSM_LATENCY_READ_STALLS_LSB +: 32]  = read_stalls_q;
-        own_line[harpoon_contract_pkg::DSM_LATENCY_WRITE_STALLS_LSB +: 32] = write_stalls_q;
-        own_line[harpoon_contract_pkg::DSM_LATENCY_SPL2_CYCLES_LSB +: 32]  = spl2_cycles_q;
-        own_line[harpoon_contract_pkg::DSM_LATENCY_SPHERE_COUNT_LSB +: 32] = loaded_q;
-      end
-      SendPerformance: begin
-        own_line[harpoon_contract_pkg::DSM_PERFORMANCE_CYCLES_LSB +: 32]        = cycles_q;
-        own_line[harpoon_contract_pkg::DSM_PERFORMANCE_SEQUENCE_LSB +: 32]      = sequence_q;
-        own_line[harpoon_contract_pkg::DSM_PERFORMANCE_LINES_READ_LSB +: 32]    = lines_read_q;
-        own_line[harpoon_contract_pkg::DSM_PERFORMANCE_LINES_WRITTEN_LSB +: 32] = lines_written;
-        own_line[harpoon_contract_pkg::DSM_PERFORMANCE_HITS_LSB +: 32]          = hits;
-        own_line[harpoon_contract_pkg::DSM_PERFORMANCE_SCPU_PAIRS_LSB +: 32]    = scpu_pairs;
-        own_line[harpoon_contract_pkg::DSM_PERFORMANCE_SOURCE_DIGEST_LSB +: 64] = source_digest;
-        own_line[harpoon_contract_pkg::DSM_PERFORMANCE_DEST_DIGEST_LSB +: 64]   = dest_digest;
-      end
-      default: begin
-        own_line[harpoon_contract_pkg::STATUS_STATUS_LSB +: 32] = harpoon_contract_pkg::STATUS_DONE
-          | ((error_q != harpoon_contract_pkg::ERROR_NONE) ? harpoon_contract_pkg::STATUS_FAILED
-                                                           : 32'd0);
-        own_line[harpoon_contract_pkg::STATUS_ERROR_LSB +: 32]    = {28'd0, error_q};
-        own_line[harpoon_contract_pkg::STATUS_SEQUENCE_LSB +: 32] = sequence_q;
-        own_line[harpoon_contract_pkg::STATUS_HITS_LSB +: 32]     = hits;
-      end
-    endcase
-  end
-
-  // The lines hold still between fold and send: the counters stop before they are sent.
-  line_fold u_fold (
-    .clk_i,
-    .valid_i      (take_control_data),
-    .line_i       ({64'd0, data_i[447:0]}),
-    .or_valid_i   (state_q == Fold),
-    .or_line_i    (own_line),
-    .fold_o       (fold)
-  );
-
-  // ---- what arrives while fetching ----
-  always_ff @(posedge clk_i) begin
-    context_judge_q <= take_control_data & ~got_context_q;
-    if (context_judge_q) context_good_q <= check_good;
-    if (take_control_data) check_q <= data_i[harpoon_contract_pkg::CHECK_LSB +: 64];
-    if (take_control_data & ~got_context_q) begin
-      source_q       <= data_i[harpoon_contract_pkg::VAFU2_CNTXT_SOURCE_LSB+6 +: 58];
-      dest_q         <= data_i[harpoon_contract_pkg::VAFU2_CNTXT_DEST_LSB+6 +: 58];
-      source_lines_q <= data_i[harpoon_contract_pkg::VAFU2_CNTXT_SOURCE_LINES_LSB +: 32];
-      dest_lines_q   <= data_i[harpoon_contract_pkg::VAFU2_CNTXT_DEST_LINES_LSB +: 32];
-      spheres_q      <= data_i[harpoon_contract_pkg::VAFU2_CNTXT_SPHERES_LSB+6 +: 58];
-      sphere_count_q <= data_i[harpoon_contract_pkg::VAFU2_CNTXT_SPHERE_COUNT_LSB +: 32];
-    end
-    if (take_control_data & got_context_q) begin
-      go_q         <= data_i[harpoon_contract_pkg::CONTROL_START_LSB +: 8]
-                      == harpoon_contract_pkg::CONTROL_GO;
-      forget_q     <= data_i[harpoon_contract_pkg::CONTROL_RESET_LSB +: 8]
-                      == harpoon_contract_pkg::CONTROL_GO;
-      pair_count_q <= data_i[harpoon_contract_pkg::CONTROL_PAIR_COUNT_LSB +: 32];
-      format_q     <= data_i[harpoon_contract_pkg::CONTROL_FORMAT_LSB +: 32];
-      sequence_q   <= data_i[harpoon_contract_pkg::CONTROL_SEQUENCE_LSB +: 32];
-      load_table_q <= data_i[harpoon_contract_pkg::CONTROL_LOAD_TABLE_LSB];
-    end
-  end
-
-  // ---- the sequence ----
-  logic id_pending_q;
-  always_ff @(posedge clk_i) begin
-    if (!rst_ni) begin
-      state_q       <= Idle;
-      line_q        <= SendNothing;
-      ask_q         <= '0;
-      got_context_q <= 1'b0;
-      start_q       <= 1'b0;
-      running_q     <= 1'b0;
-      error_q       <= harpoon_contract_pkg::ERROR_NONE;
-    end else begin
-      start_q <= 1'b0;
-      unique case (state_q)
-        Idle: begin
-          if (id_pending_q) begin
-            line_q  <= SendId;
-            state_q <= Fold;
-          end else if (spl2_on_i) begin
-            ask_q         <= 2'b11;
-            got_context_q <= 1'b0;
-            state_q       <= Fetch;
-          end
-        end
-        Fetch: begin
-          if (read_ready_i & (ask_q != '0)) ask_q <= ask_q[0] ? {ask_q[1], 1'b0} : 2'b00;
-          if (data_valid_i) begin
-            got_context_q <= 1'b1;
-            if (got_context_q) state_q <= Judge;
-          end
-        end
-        Judge: begin
-          if (!go_q) begin
-            ask_q   <= 2'b10;
-            state_q <= Fetch;
-          end else begin
-            error_q <= verdict;
-            state_q <= Fold;
-            if (verdict == harpoon_contract_pkg::ERROR_NONE) begin
-              start_q   <= 1'b1;
-              running_q <= 1'b1;
-              line_q    <= SendId;
-            end else begin
-              line_q <= SendLatency;
-            end
-          end
-        end
-        Fold: state_q <= Send;
-        Send: if (write_ready_i) begin
-          unique case (line_q)
-            SendId: state_q <= running_q ? Run : Idle;
-            SendLatency: begin
-              line_q  <= SendPerformance;
-              state_q <= Fold;
-            end
-            SendPerformance: begin
-              line_q  <= SendStatus;
-              state_q <= Settle;
-            end
-            default: begin
-              line_q  <= SendNothing;
-              state_q <= Settle;
-            end
-          endcase
-        end
-        Run: if (collector_done & drained & ~start_q) state_q <= Flush;
-        Flush: begin
-          line_q  <= SendLatency;
-          state_q <= Settle;
-        end
-        Settle: if (dispatcher_idle & (write_idle_i | no_results)) begin
-          if (line_q == SendLatency) begin
-            running_q <= 1'b0;
-            if (index_error) error_q <= harpoon_contract_pkg::ERROR_INDEX;
-          end
-          state_q <= (line_q == SendNothing) ? Done : Fold;
-        end
-        default: ;
-      endcase
-    end
-  end
-  always_ff @(posedge clk_i) begin
-    if (!cold_rst_ni) id_pending_q <= 1'b0;
-    else if (dsm_commit_i) id_pending_q <= 1'b1;
-    else if ((state_q == Send) & (line_q == SendId) & ~running_q) id_pending_q <= 1'b0;
-  end
-
-  assign done_o  = state_q == Done;
-  assign idle_o  = (state_q == Idle) | (state_q == Done);
-  assign error_o = error_q;
-  assign state_o = state_q;
+  assign data_ready_o     = fetching | collector_data_ready;
+  assign read_valid_o     = fetching ? job_read : collector_read;
+  assign read_line_o      = fetching ? job_line : collector_line;
+  assign dispatcher_ready = write_ready_i & ~own_write;
+  assign write_valid_o    = own_write | dispatcher_write;
+  assign write_dsm_o      = own_write & own_dsm;
+  assign write_data_o     = own_write ? own_data : dispatcher_data;
+  assign write_line_o     = own_write ? own_address : dispatcher_line;
 `ifdef FORMAL
   `include "puc.svh"
 `endif

@@ -12,33 +12,41 @@
 // wait up to Patience cycles for the next one instead of running empty. The clock of two SCPUs that
 // hold no pair, or wait, is gated.
 //
-// `mask_i` says which of the two pairs are there (01 or 11); the tags travel along. Latency: that
-// of the SCPU plus 5, and the waiting. Legal: NumScpu = 1 or even, turns and Depth powers of two,
-// Depth above that latency.
+// The beats are those of the pair stream (puc_pkg); an empty one is taken and leaves nothing. The
+// tags travel along. Latency: that of the SCPU plus 5, and the waiting. Legal: NumScpu = 1 or even,
+// turns and Depth powers of two, Depth above that latency.
 module scpu_array #(
   parameter int unsigned NumScpu    = 10,
-  parameter int unsigned TagWidth   = 31,
   parameter int unsigned Depth      = 256,
   parameter int unsigned FirstTurn  = 64,
   parameter int unsigned LastTurn   = 4096,
   parameter int unsigned Patience   = 4
 ) (
-  input  logic                  clk_i,
-  input  logic                  rst_ni,
-  input  logic                  spread_i,
-  input  logic                  more_i,
-  input  logic                  valid_i,
-  output logic                  ready_o,
-  input  logic [1:0]            mask_i,
-  input  logic [511:0]          pairs_i,
-  input  logic [2*TagWidth-1:0] tags_i,
-  output logic                  valid_o,
-  input  logic                  ready_i,
-  output logic [1:0]            mask_o,
-  output logic [511:0]          contacts_o,
-  output logic [2*TagWidth-1:0] tags_o,
-  output logic                  idle_o
+  input  logic             clk_i,
+  input  logic             rst_ni,
+  input  logic             spread_i,
+  input  logic             more_i,
+  input  logic             valid_i,
+  output logic             ready_o,
+  input  puc_pkg::beat_t   beat_i,
+  input  harpoon_contract_pkg::pair_line_t    pairs_i,
+  output logic             valid_o,
+  input  logic             ready_i,
+  output puc_pkg::result_t result_o,
+  output harpoon_contract_pkg::contact_line_t contacts_o,
+  output logic             idle_o
 );
+  if (NumScpu != 1 && (NumScpu == 0 || NumScpu % 2 != 0))
+    $error("scpu_array: NumScpu must be 1 or even");
+  if (1 << $clog2(Depth) != Depth || Depth <= scpu_pkg::Latency + 5)
+    $error("scpu_array: Depth must be a power of two above the latency");
+  if (LastTurn < 4 || 1 << $clog2(LastTurn) != LastTurn)
+    $error("scpu_array: LastTurn must be a power of two, at least 4");
+  if (FirstTurn < 1 || FirstTurn > LastTurn || 1 << $clog2(FirstTurn) != FirstTurn)
+    $error("scpu_array: FirstTurn must be a power of two, 1 to LastTurn");
+  if (Patience < 1)
+    $error("scpu_array: Patience must be at least 1");
+
   localparam int unsigned SLOTS   = (NumScpu == 1) ? 1 : 2;
   localparam int unsigned COLUMNS = NumScpu / SLOTS;
   localparam int unsigned COL     = (COLUMNS > 1) ? $clog2(COLUMNS) : 1;
@@ -46,17 +54,13 @@ module scpu_array #(
   localparam int unsigned PAUSE   = $clog2(Patience + 1);
   localparam int unsigned RUN     = $clog2(scpu_pkg::Latency + 3);
 
-  if (NumScpu != 1 && NumScpu % 2 != 0) begin : gen_illegal
-    $error("NumScpu must be 1 or even");
-  end
-
   // ---- one beat in, for NumScpu = 1 in two halves ----
   logic                  issue, credit, last_half;
   logic [1:0]            issue_mask;
   logic [256*SLOTS-1:0]  issue_pairs;
-  logic [2*TagWidth-1:0] issue_tags;
+  puc_pkg::tags_t        issue_tags;
 
-  assign issue   = valid_i & credit;
+  assign issue   = valid_i & credit & beat_i.mask[0];
   assign ready_o = credit & last_half;
   if (SLOTS == 1) begin : gen_halves
     logic half_q;
@@ -64,15 +68,15 @@ module scpu_array #(
       if (!rst_ni) half_q <= 1'b0;
       else if (issue) half_q <= ~last_half;
     end
-    assign last_half   = half_q | ~mask_i[1];
-    assign issue_mask  = {1'b0, half_q | mask_i[0]};
-    assign issue_pairs = half_q ? pairs_i[511:256] : pairs_i[255:0];
-    assign issue_tags  = half_q ? {{TagWidth{1'b0}}, tags_i[2*TagWidth-1:TagWidth]} : tags_i;
+    assign last_half   = half_q | ~beat_i.mask[1];
+    assign issue_mask  = {1'b0, half_q | beat_i.mask[0]};
+    assign issue_pairs = half_q ? pairs_i.second : pairs_i.first;
+    assign issue_tags  = half_q ? {31'd0, beat_i.tags.second} : beat_i.tags;
   end else begin : gen_whole
     assign last_half   = 1'b1;
-    assign issue_mask  = mask_i;
+    assign issue_mask  = beat_i.mask;
     assign issue_pairs = pairs_i;
-    assign issue_tags  = tags_i;
+    assign issue_tags  = beat_i.tags;
   end
 
   // ---- which SCPUs ----
@@ -158,15 +162,18 @@ module scpu_array #(
   end
 
   // ---- queues, reserved by credits ----
-  logic take_result, tag_valid, tag_ready, result_ready, tag_empty, result_empty, all_home;
-  fifo #(.Width(2 + 2*TagWidth), .Depth(Depth)) u_tags (
+  logic           take_result, tag_valid, tag_ready, result_ready, tag_empty, result_empty;
+  logic           all_home;
+  logic [1:0]     mask;
+  puc_pkg::tags_t tags;
+  fifo #(.Width(64), .Depth(Depth)) u_tags (
     .clk_i, .rst_ni,
     .valid_i (issue),
     .ready_o (tag_ready),
     .data_i  ({issue_mask, issue_tags}),
     .valid_o (tag_valid),
     .ready_i (take_result),
-    .data_o  ({mask_o, tags_o}),
+    .data_o  ({mask, tags}),
     .empty_o (tag_empty)
   );
   fifo #(.Width(512), .Depth(Depth)) u_results (
@@ -180,6 +187,10 @@ module scpu_array #(
     .empty_o (result_empty)
   );
   assign take_result = valid_o & ready_i;
+  always_comb begin
+    result_o.mask = mask;
+    result_o.tags = tags;
+  end
   credits #(.Count(Depth)) u_credits (
     .clk_i, .rst_ni,
     .take_i      (issue),
@@ -189,9 +200,10 @@ module scpu_array #(
   );
   assign idle_o = all_home;
 
-  // the credits make these constant; they are outputs of general cells
+  // the credits make these constant; they are outputs of general cells. The last beat is no other
+  // to the SCPUs.
   logic unused;
-  assign unused = tag_valid ^ tag_ready ^ result_ready ^ tag_empty ^ result_empty;
+  assign unused = tag_valid ^ tag_ready ^ result_ready ^ tag_empty ^ result_empty ^ beat_i.last;
 `ifdef FORMAL
   `include "scpu_array.svh"
 `endif

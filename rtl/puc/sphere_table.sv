@@ -15,7 +15,12 @@ module sphere_table #(
   input  logic [Ports*$clog2(Spheres)-1:0] index_i,
   output logic [Ports*128-1:0]            sphere_o
 );
-  localparam int unsigned W    = $clog2(Spheres);
+  if (Spheres < 8 || Spheres > 65536 || 1 << $clog2(Spheres) != Spheres)
+    $error("sphere_table: Spheres must be a power of two, 8 to 65536");
+  if (Ports < 1)
+    $error("sphere_table: Ports must be at least 1");
+
+  localparam int unsigned W    = (Spheres > 4) ? $clog2(Spheres) : 3;
   localparam int unsigned ROWS = Spheres / 4;
 
   logic [511:0] mem_q [0:ROWS-1];

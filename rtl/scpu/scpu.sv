@@ -16,34 +16,38 @@
 // Reset (synchronous, active low): no record is valid; records under way are dropped.
 // No parameters.
 module scpu (
-  input  logic         clk_i,
-  input  logic         rst_ni,
-  input  logic         valid_i,
-  input  logic [255:0] pair_i,
-  output logic         valid_o,
-  output logic [255:0] contact_o
+  input  logic                           clk_i,
+  input  logic                           rst_ni,
+  input  logic                           valid_i,
+  input  harpoon_contract_pkg::pair_t    pair_i,
+  output logic                           valid_o,
+  output harpoon_contract_pkg::contact_t contact_o
 );
   logic [31:0] pos_x, pos_y, pos_z, normal_x, normal_y, normal_z, depth;
   logic        hit, grazing;
   sphere_sphere u_sphere_sphere (
     .clk_i, .rst_ni,
-    .p1_x_i(pair_i[31:0]), .p1_y_i(pair_i[63:32]), .p1_z_i(pair_i[95:64]), .r1_i(pair_i[127:96]),
-    .p2_x_i(pair_i[159:128]), .p2_y_i(pair_i[191:160]), .p2_z_i(pair_i[223:192]),
-    .r2_i(pair_i[255:224]),
+    .p1_x_i(pair_i.p1.x), .p1_y_i(pair_i.p1.y), .p1_z_i(pair_i.p1.z), .r1_i(pair_i.p1.r),
+    .p2_x_i(pair_i.p2.x), .p2_y_i(pair_i.p2.y), .p2_z_i(pair_i.p2.z), .r2_i(pair_i.p2.r),
     .pos_x_o(pos_x), .pos_y_o(pos_y), .pos_z_o(pos_z),
     .normal_x_o(normal_x), .normal_y_o(normal_y), .normal_z_o(normal_z),
     .depth_o(depth), .hit_o(hit), .grazing_o(grazing)
   );
 
-  localparam logic [31:0] FlowFake    = 32'd1;
-  localparam logic [31:0] FlowGrazing = 32'd2;
-  localparam logic [31:0] FlowReal    = 32'd3;
   always_ff @(posedge clk_i) begin
     if (hit) begin
-      contact_o <= {grazing ? FlowGrazing : FlowReal, depth, normal_z, normal_y, normal_x,
-                    pos_z, pos_y, pos_x};
+      contact_o.pos_x    <= pos_x;
+      contact_o.pos_y    <= pos_y;
+      contact_o.pos_z    <= pos_z;
+      contact_o.normal_x <= normal_x;
+      contact_o.normal_y <= normal_y;
+      contact_o.normal_z <= normal_z;
+      contact_o.depth    <= depth;
+      contact_o.flow     <= grazing ? harpoon_contract_pkg::FLOW_GRAZING
+                                    : harpoon_contract_pkg::FLOW_REAL;
     end else begin
-      contact_o <= {FlowFake, 224'd0};
+      contact_o      <= '0;
+      contact_o.flow <= harpoon_contract_pkg::FLOW_FAKE;
     end
   end
 

@@ -9,18 +9,17 @@
 // Number format: binary32, nearest even, subnormals kept; a NaN distance or sum is not a miss.
 // Reset (synchronous, active low): nothing is valid; pairs under way are dropped. No parameters.
 module scpu_cull (
-  input  logic         clk_i,
-  input  logic         rst_ni,
-  input  logic         valid_i,
-  input  logic [255:0] pair_i,
-  output logic         valid_o,
-  output logic         miss_o
+  input  logic                        clk_i,
+  input  logic                        rst_ni,
+  input  logic                        valid_i,
+  input  harpoon_contract_pkg::pair_t pair_i,
+  output logic                        valid_o,
+  output logic                        miss_o
 );
   sphere_miss u_sphere_miss (
     .clk_i, .rst_ni,
-    .p1_x_i(pair_i[31:0]), .p1_y_i(pair_i[63:32]), .p1_z_i(pair_i[95:64]), .r1_i(pair_i[127:96]),
-    .p2_x_i(pair_i[159:128]), .p2_y_i(pair_i[191:160]), .p2_z_i(pair_i[223:192]),
-    .r2_i(pair_i[255:224]),
+    .p1_x_i(pair_i.p1.x), .p1_y_i(pair_i.p1.y), .p1_z_i(pair_i.p1.z), .r1_i(pair_i.p1.r),
+    .p2_x_i(pair_i.p2.x), .p2_y_i(pair_i.p2.y), .p2_z_i(pair_i.p2.z), .r2_i(pair_i.p2.r),
     .miss_o
   );
 

@@ -25,8 +25,8 @@ module spl2 #(
   input  logic [57:0]                    afu_dsm_line_i,
   input  logic [$clog2(MaxInFlight):0]   limit_i,
   output logic                           fault_valid_o,
-  output logic [3:0]                     fault_code_o,
-  output logic [3:0]                     fault_request_o,
+  output harpoon_contract_pkg::fault_e   fault_code_o,
+  output harpoon_contract_pkg::request_e fault_request_o,
   output logic [57:0]                    fault_line_o,
   output logic [3:0]                     state_o,
   output logic [$clog2(MaxInFlight):0]   reads_outstanding_o,
@@ -69,6 +69,11 @@ module spl2 #(
   input  logic [$clog2(MaxInFlight)-1:0] axi_bid_i,
   input  logic [1:0]                     axi_bresp_i
 );
+  if (MaxInFlight < 2 || MaxInFlight > 128 || 1 << $clog2(MaxInFlight) != MaxInFlight)
+    $error("spl2: MaxInFlight must be a power of two, 2 to 128");
+  if (MaxPages < 2 || MaxPages > 1024 || 1 << $clog2(MaxPages) != MaxPages)
+    $error("spl2: MaxPages must be a power of two, 2 to 1024");
+
   localparam int unsigned IDX = $clog2(MaxPages);
 
   typedef enum logic [3:0] {
@@ -87,7 +92,7 @@ module spl2 #(
   logic [57:0] reader_req_line;
   logic        read_lookup, read_ok, reader_fault, clear;
   logic [57:0] read_translated, reader_fault_line;
-  logic [3:0]  reader_fault_code;
+  harpoon_contract_pkg::fault_e reader_fault_code;
 
   // ---- writer ----
   logic         writer_req_valid, writer_req_ready, writer_idle, puc_write_allowed;
@@ -95,13 +100,13 @@ module spl2 #(
   logic [511:0] writer_req_data;
   logic         write_lookup, write_ok, writer_fault, writer_req_own;
   logic [57:0]  write_translated, writer_fault_line;
-  logic [3:0]   writer_fault_code;
+  harpoon_contract_pkg::fault_e writer_fault_code;
 
   // ---- lines that SPL2 writes itself: its ID, a fault report ----
   typedef enum logic [1:0] {OwnIdle, OwnFold, OwnSend} own_e;
   own_e         own_q;
   logic         own_report_q, id_pending_q, report_pending_q, spl_dsm_known_q;
-  logic [511:0] own_line;
+  harpoon_contract_pkg::checked_line_t own_line;
   logic [63:0]  fold;
 
   assign stop         = (state_q == Fault) | (state_q == Drain);
@@ -173,7 +178,7 @@ module spl2 #(
                               : harpoon_contract_pkg::SPL_DSM_ID_LINE}
                            : write_dsm_i ? {afu_dsm_line_i[57:6], write_line_i[5:0]} : write_line_i;
   assign writer_req_data   = writer_req_own
-                           ? {harpoon_contract_pkg::CHECK_SEED ^ fold, own_line[447:0]}
+                           ? {harpoon_contract_pkg::CHECK_SEED ^ fold, own_line.body}
                            : write_data_i;
   assign write_ready_o     = ~writer_req_own & puc_write_allowed & writer_req_ready;
 
@@ -205,6 +210,12 @@ module spl2 #(
   logic [42:0] entry_page_q;
   logic        entry_mapped_q;
   logic [31:0] entry_index_q;
+  harpoon_contract_pkg::checked_line_t data_view;
+  harpoon_contract_pkg::spl2_cntxt_t   context_view;
+  harpoon_contract_pkg::pte_t          pte_view;
+  assign data_view    = data_o;
+  assign context_view = data_o;
+  assign pte_view     = data_o;
 
   assign loading    = (state_q == ContextWait) | (state_q == Entries);
   assign load_line  = loading & reader_rsp_valid;
@@ -217,7 +228,7 @@ module spl2 #(
   line_fold u_fold (
     .clk_i,
     .valid_i    (load_line),
-    .line_i     ({64'd0, data_o[447:0]}),
+    .line_i     ({64'd0, data_view.body}),
     .or_valid_i (own_q == OwnFold),
     .or_line_i  (own_line),
     .fold_o     (fold)
@@ -227,29 +238,28 @@ module spl2 #(
     if (!rst_ni) entry_valid_q <= 1'b0;
     else         entry_valid_q <= (state_q == Entries) & reader_rsp_valid;
     if (load_line) begin
-      check_q        <= data_o[harpoon_contract_pkg::CHECK_LSB +: 64];
-      entry_mapped_q <= data_o[harpoon_contract_pkg::PTE_ENTRY_LSB];
-      entry_page_q   <= data_o[harpoon_contract_pkg::PTE_ENTRY_LSB+21 +: 43];
-      entry_index_q  <= data_o[harpoon_contract_pkg::PTE_INDEX_LSB +: 32];
+      check_q        <= data_view.check;
+      entry_mapped_q <= pte_view.entry.valid;
+      entry_page_q   <= pte_view.entry.page;
+      entry_index_q  <= pte_view.index;
     end
     if ((state_q == ContextWait) & reader_rsp_valid) begin
-      table_line_q   <= data_o[harpoon_contract_pkg::SPL2_CNTXT_PAGE_TABLE_LSB+6 +: 58];
-      base_page_q    <= data_o[harpoon_contract_pkg::SPL2_CNTXT_AFU_CONTEXT_LSB+21 +: 43];
-      context_good_q <= (data_o[harpoon_contract_pkg::SPL2_CNTXT_PAGE_TABLE_LSB +: 6] == '0)
-                      & (data_o[harpoon_contract_pkg::SPL2_CNTXT_AFU_CONTEXT_LSB +: 21] == '0)
-                      & data_o[harpoon_contract_pkg::SPL2_CNTXT_PAGE_SIZE_LSB]
-                      & data_o[harpoon_contract_pkg::SPL2_CNTXT_CONTROL_LSB]
-                      & (data_o[harpoon_contract_pkg::SPL2_CNTXT_PAGE_COUNT_LSB +: 32] != '0)
-                      & (data_o[harpoon_contract_pkg::SPL2_CNTXT_PAGE_COUNT_LSB +: 32] <= MaxPages)
-                      & (data_o[harpoon_contract_pkg::SPL2_CNTXT_AFU_DSM_LSB +: 64]
-                         == {afu_dsm_line_i, 6'd0});
+      table_line_q   <= context_view.page_table.line;
+      base_page_q    <= context_view.afu_context.page;
+      context_good_q <= (context_view.page_table.offset == '0)
+                      & (context_view.afu_context.offset == '0)
+                      & context_view.page_size.two_mb
+                      & context_view.control.is_virtual
+                      & (context_view.page_count != '0) & (context_view.page_count <= MaxPages)
+                      & (context_view.afu_dsm == {afu_dsm_line_i, 6'd0});
     end
   end
 
   // ---- faults ----
   logic        fault;
-  logic [3:0]  fault_code, fault_request;
   logic [57:0] fault_line;
+  harpoon_contract_pkg::fault_e   fault_code;
+  harpoon_contract_pkg::request_e fault_request;
 
   always_comb begin
     fault         = 1'b1;
@@ -283,8 +293,8 @@ module spl2 #(
       stored_q         <= '0;
       enable_pending_q <= 1'b0;
       fault_valid_o    <= 1'b0;
-      fault_code_o     <= '0;
-      fault_request_o  <= '0;
+      fault_code_o     <= harpoon_contract_pkg::FAULT_NONE;
+      fault_request_o  <= harpoon_contract_pkg::REQUEST_NONE;
       fault_line_o     <= '0;
     end else begin
       unique case (state_q)
@@ -294,7 +304,7 @@ module spl2 #(
         end
         ContextRequest: if (reader_req_ready) state_q <= ContextWait;
         ContextWait: if (reader_rsp_valid) begin
-          page_count_q <= data_o[harpoon_contract_pkg::SPL2_CNTXT_PAGE_COUNT_LSB +: IDX+1];
+          page_count_q <= context_view.page_count[IDX:0];
           asked_q      <= '0;
           stored_q     <= '0;
           state_q      <= ContextCheck;
@@ -327,17 +337,17 @@ module spl2 #(
   end
 
   // ---- own lines ----
+  harpoon_contract_pkg::spl_fault_t report;
   always_comb begin
-    own_line = '0;
-    if (own_report_q) begin
-      own_line[harpoon_contract_pkg::SPL_FAULT_VALID_LSB +: 8]    = 8'd1;
-      own_line[harpoon_contract_pkg::SPL_FAULT_ERROR_LSB +: 8]    = 8'd1;
-      own_line[harpoon_contract_pkg::SPL_FAULT_STATUS_LSB +: 4]   = fault_code_o;
-      own_line[harpoon_contract_pkg::SPL_FAULT_REQUEST_LSB +: 4]  = fault_request_o;
-      own_line[harpoon_contract_pkg::SPL_FAULT_ADDRESS_LSB +: 64] = {fault_line_o, 6'd0};
-    end else begin
-      own_line[31:0] = harpoon_contract_pkg::SPL_ID;
-    end
+    report              = '0;
+    report.valid        = 8'd1;
+    report.error        = 8'd1;
+    report.status.code  = fault_code_o;
+    report.request.code = fault_request_o;
+    report.address.line = fault_line_o;
+    own_line            = '0;
+    if (own_report_q) own_line = report;
+    else              own_line.body = {416'd0, harpoon_contract_pkg::SPL_ID};
   end
 
   always_ff @(posedge clk_i) begin

@@ -29,6 +29,9 @@ module spl2_page_table #(
   output logic                        write_ok_o,
   output logic [57:0]                 write_line_o
 );
+  if (MaxPages < 2 || MaxPages > 1024 || 1 << $clog2(MaxPages) != MaxPages)
+    $error("spl2_page_table: MaxPages must be a power of two, 2 to 1024");
+
   localparam int unsigned IDX = $clog2(MaxPages);
 
   logic [43:0] mem_q [0:MaxPages-1];  // valid, physical page

@@ -33,7 +33,7 @@ module spl2_reader #(
 
   output logic [$clog2(MaxInFlight):0]   outstanding_o,
   output logic                           fault_o,
-  output logic [3:0]                     fault_code_o,
+  output harpoon_contract_pkg::fault_e   fault_code_o,
   output logic [57:0]                    fault_line_o,
 
   output logic                           axi_arvalid_o,
@@ -45,6 +45,9 @@ module spl2_reader #(
   input  logic [511:0]                   axi_rdata_i,
   input  logic [1:0]                     axi_rresp_i
 );
+  if (MaxInFlight < 2 || MaxInFlight > 128 || 1 << $clog2(MaxInFlight) != MaxInFlight)
+    $error("spl2_reader: MaxInFlight must be a power of two, 2 to 128");
+
   localparam int unsigned ID = $clog2(MaxInFlight);
 
   logic [511:0]           mem_q   [0:MaxInFlight-1];

@@ -28,7 +28,7 @@ module spl2_writer #(
   output logic [$clog2(MaxInFlight):0]   outstanding_o,
   output logic                           idle_o,
   output logic                           fault_o,
-  output logic [3:0]                     fault_code_o,
+  output harpoon_contract_pkg::fault_e   fault_code_o,
   output logic [57:0]                    fault_line_o,
 
   output logic                           axi_awvalid_o,
@@ -42,6 +42,9 @@ module spl2_writer #(
   input  logic [$clog2(MaxInFlight)-1:0] axi_bid_i,
   input  logic [1:0]                     axi_bresp_i
 );
+  if (MaxInFlight < 2 || MaxInFlight > 128 || 1 << $clog2(MaxInFlight) != MaxInFlight)
+    $error("spl2_writer: MaxInFlight must be a power of two, 2 to 128");
+
   localparam int unsigned ID = $clog2(MaxInFlight);
 
   logic [57:0]            asked_q [0:MaxInFlight-1];

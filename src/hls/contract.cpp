@@ -6,16 +6,49 @@
 
 #include <fmt/format.h>
 
+#include <algorithm>
+#include <cstdint>
 #include <fstream>
 #include <iterator>
 #include <string>
 #include <string_view>
+#include <vector>
 
 #include "device/afu/contract.hpp"
 
 namespace {
 
 namespace contract = harpoon::afu::contract;
+
+/// What a type of the contract is called in SystemVerilog: `suffix` is "_t" or "_e".
+std::string identifier(std::string_view name, std::string_view suffix = {}) {
+  std::string text;
+  for (const char c : name) {
+    text += c >= 'A' && c <= 'Z' ? static_cast<char>(c - 'A' + 'a') : c;
+  }
+  return text.append(suffix);
+}
+
+/// The name of a member; the language has some words for itself.
+std::string member_name(std::string_view name) {
+  return identifier(name, name == "CONFIG" || name == "SEQUENCE" ? "_word" : "");
+}
+
+/// The type of a field or of bits: a struct, an enum, or (`name` empty) a number.
+std::string type_of(std::string_view name, std::uint32_t width) {
+  if (name.empty()) return width == 1 ? "logic" : fmt::format("logic [{}:0]", width - 1);
+  const bool is_code = std::ranges::any_of(
+      contract::kCodes, [&](const contract::Codes& codes) { return codes.name == name; });
+  return identifier(name, is_code ? "_e" : "_t");
+}
+
+/// Neighbouring bits of a packed struct.
+struct Member {
+  std::string name;
+  std::uint32_t low;
+  std::uint32_t width;
+  std::string type;
+};
 
 /// Text of the package, line by line.
 class Package {
@@ -27,62 +60,49 @@ class Package {
   void number(std::string_view name, std::uint64_t value) {
     line(fmt::format("  localparam int unsigned {} = {};", name, value));
   }
-  template <class Code>
-  void code(std::string_view name, unsigned width, Code value) {
-    bits(name, width, static_cast<std::uint32_t>(value));
+  void codes(const contract::Codes& codes) {
+    line(fmt::format("\n  typedef enum logic [{}:0] {{", codes.bits - 1));
+    for (const contract::Code& code : codes.codes) {
+      line(fmt::format("    {}_{} = {}'h{:x}{}", codes.name, code.name, codes.bits, code.value,
+                       &code == &codes.codes.back() ? "" : ","));
+    }
+    line(fmt::format("  }} {};", identifier(codes.name, "_e")));
+  }
+  /// `members` from the lowest, `width` bits in all; what lies between them is zero.
+  void packed(std::string_view name, const std::vector<Member>& members, std::uint32_t width) {
+    line("\n  typedef struct packed {");
+    std::uint32_t top = width;
+    for (auto member = members.rbegin(); member != members.rend(); ++member) {
+      gap(member->low + member->width, top);
+      line(fmt::format("    {} {};", member->type, member->name));
+      top = member->low;
+    }
+    gap(0, top);
+    line(fmt::format("  }} {};", identifier(name, "_t")));
   }
   [[nodiscard]] const std::string& text() const noexcept { return text_; }
 
  private:
+  void gap(std::uint32_t low, std::uint32_t top) {
+    if (low != top) line(fmt::format("    {} zero_{};", type_of({}, top - low), low));
+  }
+
   std::string text_;
 };
 
 void put_limits(Package& out) {
   out.number("MAX_PAGES", contract::kMaxPages);
+  out.number("PAIRS_PER_LINE", contract::kPairsPerLine);
   out.number("INDEX_PAIRS_PER_LINE", contract::kIndexPairsPerLine);
   out.bits("AFU_ID_LOW", 64, contract::kAfuIdLow);
   out.bits("AFU_ID_HIGH", 64, contract::kAfuIdHigh);
   out.bits("SPL_ID", 32, contract::kSplId);
   out.bits("CHECK_SEED", 64, contract::kCheckSeed);
-  out.number("CHECK_LSB", std::uint64_t{contract::kCheckOffset} * 8);
-}
-
-void put_codes(Package& out) {
-  using contract::AfuError;
-  using contract::Format;
-  using contract::Spl2Fault;
-  out.code("FORMAT_DIRECT", 32, Format::direct);
-  out.code("FORMAT_DIRECT_HITS", 32, Format::direct_hits);
-  out.code("FORMAT_INDEXED_HITS", 32, Format::indexed_hits);
-  out.code("FORMAT_COUNT", 32, contract::kFormatCount);
-  out.code("FLOW_FAKE", 32, contract::kFlowFake);
-  out.code("FLOW_GRAZING", 32, contract::kFlowGrazing);
-  out.code("FAULT_PTE_LOAD", 4, Spl2Fault::pte_load_error);
-  out.code("FAULT_ACCESS", 4, Spl2Fault::access_violation);
-  out.code("FAULT_BUS", 4, Spl2Fault::bus_error);
-  out.code("FAULT_UNEXPECTED", 4, Spl2Fault::unexpected_response);
-  out.code("REQUEST_READ", 4, contract::kRequestRead);
-  out.code("REQUEST_WRITE", 4, contract::kRequestWrite);
-  out.code("ERROR_NONE", 4, AfuError::none);
-  out.code("ERROR_BAD_CONTEXT", 4, AfuError::bad_context);
-  out.code("ERROR_BAD_CONTROL", 4, AfuError::bad_control);
-  out.code("ERROR_BAD_FORMAT", 4, AfuError::bad_format);
-  out.code("ERROR_SOURCE_TOO_SHORT", 4, AfuError::source_too_short);
-  out.code("ERROR_TOO_MANY_SPHERES", 4, AfuError::too_many_spheres);
-  out.code("ERROR_INDEX", 4, AfuError::index_out_of_range);
-  out.code("CONTROL_GO", 8, contract::control::kGo);
-  out.code("STATUS_DONE", 32, contract::status::kDone);
-  out.code("STATUS_FAILED", 32, contract::status::kFailed);
+  out.bits("FORMAT_COUNT", 32, contract::kFormatCount);
+  out.bits("CONTROL_GO", 8, contract::control::kGo);
 }
 
 void put_places(Package& out) {
-  for (const contract::Register& r : contract::kRegisters)
-    out.bits(fmt::format("REG_{}", r.name), 16, r.offset);
-  for (const contract::Record& record : contract::kRecords) {
-    for (const contract::Field& field : record.fields)
-      out.number(fmt::format("{}_{}_LSB", record.name, field.name),
-                 std::uint64_t{field.offset} * 8);
-  }
   out.bits("SPL_DSM_ID_LINE", 6, contract::kSplDsmIdLine);
   out.bits("SPL_DSM_FAULT_LINE", 6, contract::kSplDsmFaultLine);
   out.bits("DSM_ID_LINE", 6, contract::kDsmIdLine);
@@ -92,19 +112,72 @@ void put_places(Package& out) {
   out.bits("CONTROL_LINE", 58, contract::vafu2_cntxt::kControlOffset / contract::kLineBytes);
 }
 
+void put_words(Package& out) {
+  for (const contract::Word& word : contract::kWords) {
+    std::vector<Member> members;
+    for (const contract::Bits& bits : word.bits) {
+      members.push_back(
+          {member_name(bits.name), bits.low, bits.count, type_of(bits.type, bits.count)});
+    }
+    out.packed(word.name, members, word.bytes * 8);
+  }
+}
+
+void put_records(Package& out) {
+  for (const contract::Record& record : contract::kRecords) {
+    std::vector<Member> members;
+    for (const contract::Field& field : record.fields) {
+      members.push_back({member_name(field.name), field.offset * 8, field.bytes * 8,
+                         type_of(field.type, field.bytes * 8)});
+    }
+    out.packed(record.name, members, record.bytes * 8);
+  }
+}
+
 std::string package() {
   Package out;
   out.line("// Generated by harpoon-contract from device/afu/contract.hpp; do not edit.");
   out.line("//");
   out.line(
-      "// Registers, record layouts, formats, limits and error codes of the AFU. *_LSB is the");
-  out.line("// place of a field in its record, in bits; *_LINE counts lines of 64 bytes.");
+      "// Registers, records, formats, limits and codes of the AFU. A record or a register is a");
+  out.line(
+      "// packed struct, first field in the low bits, as it travels; what has no meaning is "
+      "called");
+  out.line("// zero_N, N the place of its lowest bit. *_LINE counts lines of 64 bytes.");
   out.line("package harpoon_contract_pkg;");
   put_limits(out);
-  put_codes(out);
   put_places(out);
+  std::vector<contract::Code> offsets;
+  for (const contract::Register& r : contract::kRegisters) offsets.push_back({r.name, r.offset});
+  out.codes({"REG", 16, offsets});
+  for (const contract::Codes& codes : contract::kCodes) out.codes(codes);
+  put_words(out);
+  put_records(out);
   out.line("endpackage");
   return out.text();
+}
+
+/// " (bits 0 START: meaning; 7:4 CODE)" for a word, nothing for another type.
+std::string bits_of(std::string_view type) {
+  std::string text;
+  for (const contract::Word& word : contract::kWords) {
+    if (word.name != type) continue;
+    for (const contract::Bits& bits : word.bits) {
+      if (!text.empty()) text += "; ";
+      if (bits.count > 1) text += fmt::format("{}:", bits.low + bits.count - 1);
+      text += fmt::format("{} {}", bits.low, bits.name);
+      if (!bits.meaning.empty()) text += fmt::format(": {}", bits.meaning);
+    }
+    const bool is_one = word.bits.size() == 1 && word.bits[0].count == 1;
+    return fmt::format(" ({} {})", is_one ? "bit" : "bits", text);
+  }
+  return text;
+}
+
+/// Addresses have the same bits everywhere, told once.
+std::string meaning_of(std::string_view meaning, std::string_view type) {
+  const bool is_address = type == "LINE_ADDRESS" || type == "PAGE_ADDRESS";
+  return std::string(meaning) + (is_address ? "" : bits_of(type));
 }
 
 std::string register_map() {
@@ -116,7 +189,7 @@ std::string register_map() {
       "| offset | bytes | register | access | meaning |\n| --- | --- | --- | --- | --- |\n";
   for (const contract::Register& r : contract::kRegisters) {
     out += fmt::format("| 0x{:04X} | {} | {} | {} | {} |\n", r.offset, r.bytes, r.name, r.access,
-                       r.meaning);
+                       meaning_of(r.meaning, r.type));
   }
   for (const contract::Record& record : contract::kRecords) {
     out += fmt::format(
@@ -124,7 +197,7 @@ std::string register_map() {
         record.name, record.place);
     for (const contract::Field& field : record.fields) {
       out += fmt::format("| {} | {} | {} | {} |\n", field.offset, field.bytes, field.name,
-                         field.meaning);
+                         meaning_of(field.meaning, field.type));
     }
   }
   return out;

@@ -4,8 +4,10 @@
 
 #include <gtest/gtest.h>
 
+#include <cstdint>
 #include <random>
 #include <set>
+#include <string_view>
 
 namespace harpoon::afu {
 namespace {
@@ -67,15 +69,54 @@ TEST(Digest, DependsOnTheOrderOfLines) {
   EXPECT_NE(ab.value(), ba.value());
 }
 
-TEST(Contract, RecordsFitTheirLineAndDoNotOverlap) {
+TEST(Contract, FieldsFitTheirRecordAndDoNotOverlap) {
   for (const contract::Record& record : contract::kRecords) {
     std::uint64_t used = 0;
     for (const contract::Field& field : record.fields) {
-      ASSERT_LE(field.offset + field.bytes, contract::kLineBytes) << record.name << field.name;
+      ASSERT_LE(field.offset + field.bytes, record.bytes) << record.name << field.name;
       const std::uint64_t bytes = ((std::uint64_t{1} << field.bytes) - 1) << field.offset;
       EXPECT_EQ(used & bytes, 0u) << record.name << " " << field.name;
       used |= bytes;
     }
+  }
+}
+
+TEST(Contract, BitsFitTheirWordAndDoNotOverlap) {
+  for (const contract::Word& word : contract::kWords) {
+    std::uint64_t used = 0;
+    std::uint32_t top = 0;
+    for (const contract::Bits& bits : word.bits) {
+      ASSERT_LE(bits.low + bits.count, word.bytes * 8) << word.name << " " << bits.name;
+      EXPECT_GE(bits.low, top) << word.name << " " << bits.name << " is out of order";
+      top = bits.low + bits.count;
+      const std::uint64_t mask = ((std::uint64_t{1} << bits.count) - 1) << bits.low;
+      EXPECT_EQ(used & mask, 0u) << word.name << " " << bits.name;
+      used |= mask;
+    }
+  }
+}
+
+/// Bytes of a type that the contract names, 0 for what it does not name.
+std::uint32_t bytes_of(std::string_view type) {
+  for (const contract::Word& word : contract::kWords)
+    if (word.name == type) return word.bytes;
+  for (const contract::Codes& codes : contract::kCodes)
+    if (codes.name == type) return codes.bits / 8;
+  for (const contract::Record& record : contract::kRecords)
+    if (record.name == type) return record.bytes;
+  return 0;
+}
+
+TEST(Contract, TypesAreThereAndAsWideAsWhatHoldsThem) {
+  for (const contract::Record& record : contract::kRecords) {
+    for (const contract::Field& field : record.fields) {
+      if (field.type.empty()) continue;
+      EXPECT_EQ(bytes_of(field.type), field.bytes) << record.name << " " << field.name;
+    }
+  }
+  for (const contract::Register& r : contract::kRegisters) {
+    if (r.type.empty()) continue;
+    EXPECT_EQ(bytes_of(r.type), r.bytes) << r.name;
   }
 }
 

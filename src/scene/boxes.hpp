@@ -13,6 +13,7 @@
 #include "harpoon/scene.hpp"
 #include "scene/order.hpp"
 #include "scene/search.hpp"
+#include "scene/tree.hpp"
 
 namespace harpoon::scene {
 
@@ -50,6 +51,7 @@ enum class BoxOrder : std::uint8_t {
   done,
   nothing,       ///< no valid box
   needs_double,  ///< float does not resolve these boxes; never with Cull = double
+  needs_trees,   ///< too many boxes fit no grid
 };
 
 /// Surveys and orders the boxes; ids of invalid ones are appended to `excluded`, unless another
@@ -58,5 +60,11 @@ template <class Real, class Cull>
 Result<BoxOrder> order_boxes(const Means& means, const BoxSource<Real>& source, BoxMemory& memory,
                              OrderMemory& order_memory, std::vector<std::uint32_t>& excluded,
                              OrderedBoxes<Real, Cull>& out);
+
+/// The same without grids, for any boxes; invalid ones are known from the attempt before it.
+template <class Real>
+std::optional<Error> order_boxes_in_trees(const Means& means, const BoxSource<Real>& source,
+                                          BoxMemory& memory, OrderMemory& order_memory,
+                                          TreeMemory& tree_memory, OrderedBoxes<Real, Real>& out);
 
 }  // namespace harpoon::scene

@@ -71,22 +71,43 @@ class Detection {
     if (source_.count == 0) return std::nullopt;
     scene::Survey<Real> survey;
     if (auto error = scene::survey(means_, source_, 0, report.excluded, survey)) return error;
-    if (survey.census.bodies == 0) return std::nullopt;
+    if (survey.census.bodies + survey.giants.size() == 0) return std::nullopt;
     const scene::Plan plan = scene::make_plan(survey.census);
     report.times.survey_ns = watch_.lap_ns();
-    return plan.cull_double ? run_planned<double>(survey, plan, report)
-                            : run_planned<float>(survey, plan, report);
+    if (plan.in_trees) return run_in_trees(report);
+    if (auto error = plan.cull_double ? run_in_grids<double>(survey, plan, report)
+                                      : run_in_grids<float>(survey, plan, report)) {
+      return error;
+    }
+    return state_.search.gave_up ? run_in_trees(report) : std::nullopt;
   }
 
  private:
   template <class Cull>
-  std::optional<Error> run_planned(const scene::Survey<Real>& survey, const scene::Plan& plan,
-                                   DetectReport& report) {
+  std::optional<Error> run_in_grids(const scene::Survey<Real>& survey, const scene::Plan& plan,
+                                    DetectReport& report) {
     scene::Ordered<Real, Cull> bodies;
+    bodies.scanned = survey.giants.size();
     if (auto error = scene::order(means_, source_, survey, plan, state_.order, bodies)) {
       return error;
     }
-    report.times.order_ns = watch_.lap_ns();
+    scene::place_giants(means_, source_, survey, plan, state_.order, bodies);
+    return find_and_write(bodies, report);
+  }
+
+  std::optional<Error> run_in_trees(DetectReport& report) {
+    scene::Ordered<Real, Real> bodies;
+    if (auto error =
+            scene::order_in_trees(means_, source_, 0, state_.order, state_.trees, bodies)) {
+      return error;
+    }
+    return find_and_write(bodies, report);
+  }
+
+  template <class Cull>
+  std::optional<Error> find_and_write(const scene::Ordered<Real, Cull>& bodies,
+                                      DetectReport& report) {
+    report.times.order_ns += watch_.lap_ns();
     const Sorted<Real> from{means_.kernels->of<Real>(), bodies.spheres, bodies.ids};
     return scene::find_and_write(state_, means_, bodies, {}, filters_, sink_of(from, out_), order_,
                                  source_.count, watch_, report);

@@ -71,7 +71,8 @@ std::optional<Error> write_lists(const Means& means, std::span<const Candidates>
 }
 
 /// Searches the ordered bodies and writes what is found, unless it does not fit: then
-/// `report.contacts` is the number needed. Ids are below `id_count`.
+/// `report.contacts` is the number needed. Ids are below `id_count`. Nothing is written where the
+/// search gives up, which `state.search` says.
 template <class Real, class Cull, class Sink>
 std::optional<Error> find_and_write(Workspace::State& state, const Means& means,
                                     const Ordered<Real, Cull>& bodies, const SearchRule& rule,
@@ -81,14 +82,11 @@ std::optional<Error> find_and_write(Workspace::State& state, const Means& means,
   if (auto error = search(means, bodies, rule, filter, sink.capacity(), state.search)) {
     return error;
   }
+  report.tests += state.search.tests();
+  report.times.search_ns += watch.lap_ns();
+  if (state.search.gave_up) return std::nullopt;
   const std::span<TaskList> lists(state.search.lists.data(), state.search.used);
-  std::uint64_t dropped = 0;
-  for (const TaskList& task : lists) {
-    report.tests += task.tests;
-    dropped += task.dropped;
-  }
-  report.times.search_ns = watch.lap_ns();
-  if (dropped != 0) {
+  if (const std::uint64_t dropped = state.search.dropped(); dropped != 0) {
     report.contacts = dropped;
     return std::nullopt;
   }

@@ -11,6 +11,8 @@
 #include <limits>
 #include <new>
 
+#include <fmt/format.h>
+
 #include "base/float_environment.hpp"
 #include "scene/check.hpp"
 #include "scene/ordered_writer.hpp"
@@ -21,7 +23,7 @@ namespace {
 
 /// Frames that a list should last at the speed seen.
 constexpr double kFramesPerSearch = 8;
-/// A margin beyond this part of the largest radius makes the list longer than it is worth.
+/// A margin beyond this part of a usual large radius makes the list longer than it is worth.
 constexpr double kLargestMargin = 0.5;
 /// So does one that lists more pairs than these, as where all but a few bodies are small.
 constexpr std::uint64_t kListPerBody = 8, kListPerContact = 4;
@@ -40,6 +42,12 @@ Error no_such_body() {
 }
 Error out_of_memory() {
   return {Errc::out_of_memory, "out of memory"};
+}
+Error too_many_contacts(std::uint64_t contacts, std::uint64_t limit) {
+  return {
+      Errc::capacity,
+      fmt::format("{} contacts and a limit of {}; limit_contacts() sets another", contacts, limit),
+      contacts};
 }
 
 }  // namespace
@@ -62,6 +70,8 @@ struct SceneOf<Real>::State {
   scene::Buffer contacts;
   scene::Candidates nearby;
   std::uint64_t contact_count = 0;
+  std::uint64_t tests = 0;  ///< of the last frame
+  std::optional<std::uint64_t> contact_limit;
   double margin = 0;
   /// Whose list was not too long.
   double largest_margin = std::numeric_limits<double>::infinity();
@@ -99,6 +109,10 @@ struct SceneOf<Real>::State {
     owner[id] = rules.owner;
     rest[id] = rules.rest;
     stale = moved = true;
+  }
+
+  [[nodiscard]] std::uint64_t most_contacts() const noexcept {
+    return contact_limit.value_or(default_contact_limit(spheres.size()));
   }
 
   [[nodiscard]] scene::Means means() const noexcept {
@@ -204,8 +218,8 @@ void copy_rules(const Filters& f, State& state) {
   std::copy(f.rest.begin(), f.rest.end(), state.rest.begin());
 }
 
-/// One search: makes `nearby` from the bodies as they are; without a margin where with the one
-/// asked for there were too many.
+/// One search: makes `nearby` from the bodies as they are; without a margin, of contacts alone,
+/// where with the one asked for there were too many.
 template <class Real>
 class Searcher {
  public:
@@ -213,25 +227,31 @@ class Searcher {
       : state_(state), work_(state.workspace.state()), means_(state.means()) {}
 
   std::optional<Error> run() {
-    const std::uint64_t limit =
-        kListPerBody * state_.spheres.size() + kListPerContact * state_.contact_count;
-    if (auto error = run(state_.margin > 0 ? limit : kNoLimit)) return error;
-    if (work_.search.dropped() != 0) {
+    state_.tests = 0;
+    if (state_.margin > 0) {
+      const std::uint64_t limit =
+          kListPerBody * state_.spheres.size() + kListPerContact * state_.contact_count;
+      if (auto error = run({scene::SearchRule::Kind::near_spheres}, limit)) return error;
+      if (work_.search.dropped() == 0) {
+        // A list grows at most with the cube of its reach.
+        if (8 * state_.nearby.count < limit) state_.largest_margin *= 2;
+        return std::nullopt;
+      }
       state_.largest_margin = state_.margin / 2;
       state_.margin = 0;
-      return run(kNoLimit);
+    } else {
+      state_.largest_margin *= kRetryGrowth;  // without a list it is tried again at times
     }
-    // A list grows at most with the cube of its reach. Without a list it is tried again at times.
-    if (8 * state_.nearby.count < limit) {
-      state_.largest_margin *= state_.margin > 0 ? 2 : kRetryGrowth;
-    }
+    const std::uint64_t limit = state_.most_contacts();
+    if (auto error = run({scene::SearchRule::Kind::touching_spheres}, limit)) return error;
+    const std::uint64_t dropped = work_.search.dropped();
+    if (dropped != 0) return too_many_contacts(dropped, limit);
     return std::nullopt;
   }
 
  private:
-  static constexpr std::uint64_t kNoLimit = std::numeric_limits<std::uint64_t>::max();
-
-  std::optional<Error> run(std::uint64_t limit) {
+  std::optional<Error> run(const scene::SearchRule& rule, std::uint64_t limit) {
+    rule_ = rule;
     work_.search.used = 0;
     state_.excluded.clear();
     state_.nearby.count = 0;
@@ -242,20 +262,45 @@ class Searcher {
       return error;
     }
     std::erase_if(state_.excluded, [&](std::uint32_t id) { return !state_.taken[id]; });
-    if (survey.census.bodies == 0) return std::nullopt;
+    if (survey.census.bodies + survey.giants.size() == 0) return std::nullopt;
     const scene::Plan plan = scene::make_plan(survey.census);
-    return plan.cull_double ? search<double>(source, survey, plan, limit)
-                            : search<float>(source, survey, plan, limit);
+    if (plan.in_trees) return search_trees(source, limit);
+    if (auto error = plan.cull_double ? search_grids<double>(source, survey, plan, limit)
+                                      : search_grids<float>(source, survey, plan, limit)) {
+      return error;
+    }
+    return work_.search.gave_up ? search_trees(source, limit) : std::nullopt;
   }
 
   template <class Cull>
-  std::optional<Error> search(const scene::Source<Real>& source, const scene::Survey<Real>& survey,
-                              const scene::Plan& plan, std::uint64_t limit) {
+  std::optional<Error> search_grids(const scene::Source<Real>& source,
+                                    const scene::Survey<Real>& survey, const scene::Plan& plan,
+                                    std::uint64_t limit) {
     scene::Ordered<Real, Cull> bodies;
+    bodies.scanned = survey.giants.size();
     if (auto error = scene::order(means_, source, survey, plan, work_.order, bodies)) return error;
+    scene::place_giants(means_, source, survey, plan, work_.order, bodies);
+    return search(source, bodies, limit);
+  }
+
+  std::optional<Error> search_trees(const scene::Source<Real>& source, std::uint64_t limit) {
+    scene::Ordered<Real, Real> bodies;
+    if (auto error = scene::order_in_trees(means_, source, state_.margin, work_.order, work_.trees,
+                                           bodies)) {
+      return error;
+    }
+    return search(source, bodies, limit);
+  }
+
+  template <class Cull>
+  std::optional<Error> search(const scene::Source<Real>& source,
+                              const scene::Ordered<Real, Cull>& bodies, std::uint64_t limit) {
     const scene::PairFilter filter(state_.filters());
-    const scene::SearchRule rule{scene::SearchRule::Kind::near_spheres};
-    if (auto error = scene::search(means_, bodies, rule, filter, limit, work_.search)) return error;
+    if (auto error = scene::search(means_, bodies, rule_, filter, limit, work_.search)) {
+      return error;
+    }
+    state_.tests += work_.search.tests();
+    if (work_.search.gave_up) return std::nullopt;
     const std::span<const scene::TaskList> lists(work_.search.lists.data(), work_.search.used);
     return scene::ids_in_order(means_, bodies.ids, source.count, lists, state_.nearby_memory,
                                state_.nearby);
@@ -264,6 +309,7 @@ class Searcher {
   StateOf<Real>& state_;
   Workspace::State& work_;
   scene::Means means_;
+  scene::SearchRule rule_;
 };
 
 /// Contacts of the nearby pairs, in their order.
@@ -313,10 +359,7 @@ Result<double> largest_move(const StateOf<Real>& state) {
 template <class Real>
 double choose_margin(const StateOf<Real>& state, double moved) {
   if (state.frames < 2) return 0;
-  const scene::Kernels<Real>& kernels = state.means().kernels->template of<Real>();
-  const scene::Source<Real> source = state.source();
-  const double radius =
-      std::max(0.0, static_cast<double>(kernels.extremes(source, 0, source.count).max[3]));
+  const double radius = scene::usual_radius(state.source());
   const double speed = moved / (state.frames - 1);
   const double largest = std::min(kLargestMargin * radius, state.largest_margin);
   if (!(2 * speed <= largest * kUsableMargin)) return 0;
@@ -484,6 +527,12 @@ std::size_t SceneOf<Real>::size() const noexcept {
 }
 
 template <class Real>
+void SceneOf<Real>::limit_contacts(std::uint64_t most) noexcept {
+  state_->contact_limit = most;
+  state_->moved = true;
+}
+
+template <class Real>
 Result<FrameOf<Real>> SceneOf<Real>::detect() noexcept {
   State& s = *state_;
   FrameOf<Real> frame;
@@ -495,7 +544,11 @@ Result<FrameOf<Real>> SceneOf<Real>::detect() noexcept {
       const Result<bool> searched = keep_nearby<Real>(s);
       if (!searched) return searched.error();
       frame.searched = *searched;
+      if (!frame.searched) s.tests = s.nearby.count;
       if (auto error = collide_nearby<Real>(s)) return *std::move(error);
+      if (s.contact_count > s.most_contacts()) {
+        return too_many_contacts(s.contact_count, s.most_contacts());
+      }
       s.moved = false;
     } catch (const std::bad_alloc&) {
       s.stale = true;
@@ -504,6 +557,7 @@ Result<FrameOf<Real>> SceneOf<Real>::detect() noexcept {
   }
   frame.contacts = {s.contacts.template as<BodyContactOf<Real>>(), s.contact_count};
   frame.excluded = s.excluded;
+  frame.tests = frame.changed ? s.tests : 0;
   return frame;
 }
 

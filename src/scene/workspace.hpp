@@ -10,6 +10,7 @@
 #include "scene/id_order.hpp"
 #include "scene/order.hpp"
 #include "scene/search.hpp"
+#include "scene/tree.hpp"
 
 namespace harpoon {
 
@@ -17,6 +18,7 @@ struct Workspace::State {
   const scene::KernelTable* kernels = nullptr;
   std::unique_ptr<Executor> executor;  ///< null for one thread
   scene::OrderMemory order;
+  scene::TreeMemory trees;
   scene::BoxMemory boxes;
   scene::SearchMemory search;
   scene::IdOrderMemory by_id;

@@ -28,8 +28,10 @@ class TreeTest : public ::testing::Test {
                                     Executor* executor) {
     const FloatEnvironment environment;
     const scene::Means means{executor, scene::find_kernels("")};
-    const SphereOf<Real>* s = spheres.data();
-    const scene::Source<Real> source{&s->x, &s->y, &s->z, &s->r, sizeof *s, spheres.size()};
+    scene::Source<Real> source = {};
+    if (const SphereOf<Real>* const s = spheres.data(); s != nullptr) {
+      source = {&s->x, &s->y, &s->z, &s->r, sizeof *s, spheres.size()};
+    }
     scene::Ordered<Real, Real> ordered;
     EXPECT_FALSE(scene::order_in_trees(means, source, 0, order_, trees_, ordered));
     check(ordered, spheres.size());

@@ -10,12 +10,12 @@
 namespace harpoon {
 namespace {
 
-using scene::Candidates;
+using broad::Candidates;
 
 /// Where a sink gets its bodies from, in sorted order.
 template <class Real>
 struct Sorted {
-  const scene::Kernels<Real>& kernels;
+  const broad::Kernels<Real>& kernels;
   const SphereOf<Real>* spheres;
   const std::uint32_t* ids;
 };
@@ -69,10 +69,10 @@ class Detection {
 
   std::optional<Error> run(DetectReport& report) {
     if (source_.count == 0) return std::nullopt;
-    scene::Survey<Real> survey;
-    if (auto error = scene::survey(means_, source_, 0, report.excluded, survey)) return error;
+    broad::Survey<Real> survey;
+    if (auto error = broad::survey(means_, source_, 0, report.excluded, survey)) return error;
     if (survey.census.bodies + survey.giants.size() == 0) return std::nullopt;
-    const scene::Plan plan = scene::make_plan(survey.census);
+    const broad::Plan plan = broad::make_plan(survey.census);
     report.times.survey_ns = watch_.lap_ns();
     if (plan.in_trees) return run_in_trees(report);
     if (auto error = plan.cull_double ? run_in_grids<double>(survey, plan, report)
@@ -84,28 +84,28 @@ class Detection {
 
  private:
   template <class Cull>
-  std::optional<Error> run_in_grids(const scene::Survey<Real>& survey, const scene::Plan& plan,
+  std::optional<Error> run_in_grids(const broad::Survey<Real>& survey, const broad::Plan& plan,
                                     DetectReport& report) {
-    scene::Ordered<Real, Cull> bodies;
+    broad::Ordered<Real, Cull> bodies;
     bodies.scanned = survey.giants.size();
-    if (auto error = scene::order(means_, source_, survey, plan, state_.order, bodies)) {
+    if (auto error = broad::order(means_, source_, survey, plan, state_.order, bodies)) {
       return error;
     }
-    scene::place_giants(means_, source_, survey, plan, state_.order, bodies);
+    broad::place_giants(means_, source_, survey, plan, state_.order, bodies);
     return find_and_write(bodies, report);
   }
 
   std::optional<Error> run_in_trees(DetectReport& report) {
-    scene::Ordered<Real, Real> bodies;
+    broad::Ordered<Real, Real> bodies;
     if (auto error =
-            scene::order_in_trees(means_, source_, 0, state_.order, state_.trees, bodies)) {
+            broad::order_in_trees(means_, source_, 0, state_.order, state_.trees, bodies)) {
       return error;
     }
     return find_and_write(bodies, report);
   }
 
   template <class Cull>
-  std::optional<Error> find_and_write(const scene::Ordered<Real, Cull>& bodies,
+  std::optional<Error> find_and_write(const broad::Ordered<Real, Cull>& bodies,
                                       DetectReport& report) {
     report.times.order_ns += watch_.lap_ns();
     const Sorted<Real> from{means_.kernels->of<Real>(), bodies.spheres, bodies.ids};
@@ -114,8 +114,8 @@ class Detection {
   }
 
   Workspace::State& state_;
-  scene::Means means_;
-  scene::Source<Real> source_;
+  broad::Means means_;
+  broad::Source<Real> source_;
   Filters filters_;
   Output out_;
   ContactOrder order_;

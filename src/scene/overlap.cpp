@@ -4,7 +4,7 @@
 #include <new>
 
 #include "base/float_environment.hpp"
-#include "scene/boxes.hpp"
+#include "broad/boxes.hpp"
 #include "scene/check.hpp"
 #include "scene/output.hpp"
 
@@ -27,29 +27,29 @@ class Overlaps {
 
   std::optional<Error> run() {
     auto done = run_in_grids<float>();
-    if (done.ok() && *done == scene::BoxOrder::needs_double) done = run_in_grids<double>();
+    if (done.ok() && *done == broad::BoxOrder::needs_double) done = run_in_grids<double>();
     if (!done) return done.error();
-    if (*done == scene::BoxOrder::nothing) return std::nullopt;
-    const bool in_trees = *done == scene::BoxOrder::needs_trees || state_.search.gave_up;
+    if (*done == broad::BoxOrder::nothing) return std::nullopt;
+    const bool in_trees = *done == broad::BoxOrder::needs_trees || state_.search.gave_up;
     return in_trees ? run_in_trees() : std::nullopt;
   }
 
  private:
   /// With one number type of culling.
   template <class Cull>
-  Result<scene::BoxOrder> run_in_grids() {
-    scene::OrderedBoxes<Real, Cull> ordered;
+  Result<broad::BoxOrder> run_in_grids() {
+    broad::OrderedBoxes<Real, Cull> ordered;
     const auto done =
-        scene::order_boxes(means_, source_, state_.boxes, state_.order, report_.excluded, ordered);
-    if (done.ok() && *done == scene::BoxOrder::done) {
+        broad::order_boxes(means_, source_, state_.boxes, state_.order, report_.excluded, ordered);
+    if (done.ok() && *done == broad::BoxOrder::done) {
       if (auto error = find_and_write(ordered)) return *std::move(error);
     }
     return done;
   }
 
   std::optional<Error> run_in_trees() {
-    scene::OrderedBoxes<Real, Real> ordered;
-    if (auto error = scene::order_boxes_in_trees(means_, source_, state_.boxes, state_.order,
+    broad::OrderedBoxes<Real, Real> ordered;
+    if (auto error = broad::order_boxes_in_trees(means_, source_, state_.boxes, state_.order,
                                                  state_.trees, ordered)) {
       return error;
     }
@@ -57,17 +57,17 @@ class Overlaps {
   }
 
   template <class Cull>
-  std::optional<Error> find_and_write(const scene::OrderedBoxes<Real, Cull>& ordered) {
+  std::optional<Error> find_and_write(const broad::OrderedBoxes<Real, Cull>& ordered) {
     report_.times.order_ns += watch_.lap_ns();
-    const scene::SearchRule rule{scene::SearchRule::Kind::boxes, &ordered, ordered.touching_unsure};
+    const broad::SearchRule rule{broad::SearchRule::Kind::boxes, &ordered, ordered.touching_unsure};
     const scene::PairSink sink{ordered.bodies.ids, out_};
     return scene::find_and_write(state_, means_, ordered.bodies, rule, filters_, sink, order_,
                                  source_.count, watch_, report_);
   }
 
   Workspace::State& state_;
-  scene::Means means_;
-  scene::BoxSource<Real> source_;
+  broad::Means means_;
+  broad::BoxSource<Real> source_;
   Filters filters_;
   std::span<IndexPair> out_;
   ContactOrder order_;

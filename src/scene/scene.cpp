@@ -56,7 +56,7 @@ template <class Real>
 struct SceneOf<Real>::State {
   explicit State(Workspace made) noexcept : workspace(std::move(made)) {}
 
-  using Spheres = std::vector<SphereOf<Real>, scene::LargeAllocator<SphereOf<Real>>>;
+  using Spheres = std::vector<SphereOf<Real>, LargeAllocator<SphereOf<Real>>>;
 
   Workspace workspace;
   Spheres spheres;   ///< by id; a free id has radius -1
@@ -66,9 +66,9 @@ struct SceneOf<Real>::State {
   std::vector<bool> taken;
   std::vector<std::uint32_t> free_ids;  ///< a heap, lowest first
   std::vector<std::uint32_t> excluded;
-  scene::IdOrderMemory nearby_memory;
-  scene::Buffer contacts;
-  scene::Candidates nearby;
+  broad::IdOrderMemory nearby_memory;
+  Buffer contacts;
+  broad::Candidates nearby;
   std::uint64_t contact_count = 0;
   std::uint64_t tests = 0;  ///< of the last frame
   std::optional<std::uint64_t> contact_limit;
@@ -115,11 +115,11 @@ struct SceneOf<Real>::State {
     return contact_limit.value_or(default_contact_limit(spheres.size()));
   }
 
-  [[nodiscard]] scene::Means means() const noexcept {
+  [[nodiscard]] broad::Means means() const noexcept {
     return workspace.state().means(spheres.size());
   }
   [[nodiscard]] Filters filters() const noexcept { return {category, collide, owner, rest}; }
-  [[nodiscard]] scene::Source<Real> source() const noexcept {
+  [[nodiscard]] broad::Source<Real> source() const noexcept {
     if (spheres.empty()) return {};
     const SphereOf<Real>* s = spheres.data();
     return {&s->x, &s->y, &s->z, &s->r, sizeof *s, spheres.size()};
@@ -132,7 +132,7 @@ template <class Real>
 using StateOf = typename SceneOf<Real>::State;
 
 template <class Real>
-scene::Source<Real> source_of(const BodiesOf<Real>& b) {
+broad::Source<Real> source_of(const BodiesOf<Real>& b) {
   return {b.x, b.y, b.z, b.r, b.stride_bytes, b.count};
 }
 
@@ -143,7 +143,7 @@ bool same_bits(const void* a, const SphereOf<Real>* b, std::size_t spheres) {
 }
 
 template <class Real>
-bool same_bits(const scene::Source<Real>& source, const SphereOf<Real>* spheres, std::size_t begin,
+bool same_bits(const broad::Source<Real>& source, const SphereOf<Real>* spheres, std::size_t begin,
                std::size_t end) {
   if (source.records()) return same_bits(source.x + 4 * begin, spheres + begin, end - begin);
   for (std::size_t i = begin; i < end; ++i) {
@@ -155,7 +155,7 @@ bool same_bits(const scene::Source<Real>& source, const SphereOf<Real>* spheres,
 
 /// True when the source holds exactly the scene's spheres, bit by bit.
 template <class Real>
-Result<bool> same_spheres(const StateOf<Real>& state, const scene::Source<Real>& source) {
+Result<bool> same_spheres(const StateOf<Real>& state, const broad::Source<Real>& source) {
   constexpr std::size_t kBlock = kCompareBlock / sizeof(SphereOf<Real>);
   std::atomic<bool> same{true};
   const auto compare = [&](std::size_t, std::size_t begin, std::size_t end) {
@@ -173,7 +173,7 @@ Result<bool> same_spheres(const StateOf<Real>& state, const scene::Source<Real>&
 
 /// Copies the source's bodies to `spheres`.
 template <class Real>
-std::optional<Error> copy_spheres(const scene::Means& means, const scene::Source<Real>& source,
+std::optional<Error> copy_spheres(const broad::Means& means, const broad::Source<Real>& source,
                                   typename StateOf<Real>::Spheres& spheres) {
   spheres.resize(source.count);
   SphereOf<Real>* const to = spheres.data();
@@ -231,7 +231,7 @@ class Searcher {
     if (state_.margin > 0) {
       const std::uint64_t limit =
           kListPerBody * state_.spheres.size() + kListPerContact * state_.contact_count;
-      if (auto error = run({scene::SearchRule::Kind::near_spheres}, limit)) return error;
+      if (auto error = run({broad::SearchRule::Kind::near_spheres}, limit)) return error;
       if (work_.search.dropped() == 0) {
         // A list grows at most with the cube of its reach.
         if (8 * state_.nearby.count < limit) state_.largest_margin *= 2;
@@ -243,27 +243,27 @@ class Searcher {
       state_.largest_margin *= kRetryGrowth;  // without a list it is tried again at times
     }
     const std::uint64_t limit = state_.most_contacts();
-    if (auto error = run({scene::SearchRule::Kind::touching_spheres}, limit)) return error;
+    if (auto error = run({broad::SearchRule::Kind::touching_spheres}, limit)) return error;
     const std::uint64_t dropped = work_.search.dropped();
     if (dropped != 0) return too_many_contacts(dropped, limit);
     return std::nullopt;
   }
 
  private:
-  std::optional<Error> run(const scene::SearchRule& rule, std::uint64_t limit) {
+  std::optional<Error> run(const broad::SearchRule& rule, std::uint64_t limit) {
     rule_ = rule;
     work_.search.used = 0;
     state_.excluded.clear();
     state_.nearby.count = 0;
     if (state_.spheres.empty()) return std::nullopt;
-    const scene::Source<Real> source = state_.source();
-    scene::Survey<Real> survey;
-    if (auto error = scene::survey(means_, source, state_.margin, state_.excluded, survey)) {
+    const broad::Source<Real> source = state_.source();
+    broad::Survey<Real> survey;
+    if (auto error = broad::survey(means_, source, state_.margin, state_.excluded, survey)) {
       return error;
     }
     std::erase_if(state_.excluded, [&](std::uint32_t id) { return !state_.taken[id]; });
     if (survey.census.bodies + survey.giants.size() == 0) return std::nullopt;
-    const scene::Plan plan = scene::make_plan(survey.census);
+    const broad::Plan plan = broad::make_plan(survey.census);
     if (plan.in_trees) return search_trees(source, limit);
     if (auto error = plan.cull_double ? search_grids<double>(source, survey, plan, limit)
                                       : search_grids<float>(source, survey, plan, limit)) {
@@ -273,19 +273,19 @@ class Searcher {
   }
 
   template <class Cull>
-  std::optional<Error> search_grids(const scene::Source<Real>& source,
-                                    const scene::Survey<Real>& survey, const scene::Plan& plan,
+  std::optional<Error> search_grids(const broad::Source<Real>& source,
+                                    const broad::Survey<Real>& survey, const broad::Plan& plan,
                                     std::uint64_t limit) {
-    scene::Ordered<Real, Cull> bodies;
+    broad::Ordered<Real, Cull> bodies;
     bodies.scanned = survey.giants.size();
-    if (auto error = scene::order(means_, source, survey, plan, work_.order, bodies)) return error;
-    scene::place_giants(means_, source, survey, plan, work_.order, bodies);
+    if (auto error = broad::order(means_, source, survey, plan, work_.order, bodies)) return error;
+    broad::place_giants(means_, source, survey, plan, work_.order, bodies);
     return search(source, bodies, limit);
   }
 
-  std::optional<Error> search_trees(const scene::Source<Real>& source, std::uint64_t limit) {
-    scene::Ordered<Real, Real> bodies;
-    if (auto error = scene::order_in_trees(means_, source, state_.margin, work_.order, work_.trees,
+  std::optional<Error> search_trees(const broad::Source<Real>& source, std::uint64_t limit) {
+    broad::Ordered<Real, Real> bodies;
+    if (auto error = broad::order_in_trees(means_, source, state_.margin, work_.order, work_.trees,
                                            bodies)) {
       return error;
     }
@@ -293,23 +293,23 @@ class Searcher {
   }
 
   template <class Cull>
-  std::optional<Error> search(const scene::Source<Real>& source,
-                              const scene::Ordered<Real, Cull>& bodies, std::uint64_t limit) {
-    const scene::PairFilter filter(state_.filters());
-    if (auto error = scene::search(means_, bodies, rule_, filter, limit, work_.search)) {
+  std::optional<Error> search(const broad::Source<Real>& source,
+                              const broad::Ordered<Real, Cull>& bodies, std::uint64_t limit) {
+    const broad::PairFilter filter(state_.filters());
+    if (auto error = broad::search(means_, bodies, rule_, filter, limit, work_.search)) {
       return error;
     }
     state_.tests += work_.search.tests();
     if (work_.search.gave_up) return std::nullopt;
-    const std::span<const scene::TaskList> lists(work_.search.lists.data(), work_.search.used);
-    return scene::ids_in_order(means_, bodies.ids, source.count, lists, state_.nearby_memory,
+    const std::span<const broad::TaskList> lists(work_.search.lists.data(), work_.search.used);
+    return broad::ids_in_order(means_, bodies.ids, source.count, lists, state_.nearby_memory,
                                state_.nearby);
   }
 
   StateOf<Real>& state_;
   Workspace::State& work_;
-  scene::Means means_;
-  scene::SearchRule rule_;
+  broad::Means means_;
+  broad::SearchRule rule_;
 };
 
 /// Contacts of the nearby pairs, in their order.
@@ -318,7 +318,7 @@ std::optional<Error> collide_nearby(StateOf<Real>& state) {
   const std::size_t pairs = state.nearby.count;
   if (!state.contacts.reserve((pairs + 1) * sizeof(BodyContactOf<Real>))) return out_of_memory();
   auto* const out = state.contacts.template as<BodyContactOf<Real>>();
-  const scene::Means means = state.means();
+  const broad::Means means = state.means();
   const auto make = [&](std::size_t begin, std::size_t end, BodyContactOf<Real>* to) {
     return means.kernels->of<Real>().contacts(state.spheres.data(), nullptr, state.nearby, begin,
                                               end, to);
@@ -341,8 +341,8 @@ std::optional<Error> collide_nearby(StateOf<Real>& state) {
 /// known.
 template <class Real>
 Result<double> largest_move(const StateOf<Real>& state) {
-  const scene::Means means = state.means();
-  std::array<Real, scene::Means::kMaxPieces> squares = {};
+  const broad::Means means = state.means();
+  std::array<Real, broad::Means::kMaxPieces> squares = {};
   if (auto error = means.run_pieces(state.spheres.size(), kPieceBodies,
                                     [&](std::size_t piece, std::size_t begin, std::size_t end) {
                                       squares[piece] = means.kernels->of<Real>().largest_move(
@@ -359,7 +359,7 @@ Result<double> largest_move(const StateOf<Real>& state) {
 template <class Real>
 double choose_margin(const StateOf<Real>& state, double moved) {
   if (state.frames < 2) return 0;
-  const double radius = scene::usual_radius(state.source());
+  const double radius = broad::usual_radius(state.source());
   const double speed = moved / (state.frames - 1);
   const double largest = std::min(kLargestMargin * radius, state.largest_margin);
   if (!(2 * speed <= largest * kUsableMargin)) return 0;
@@ -418,7 +418,7 @@ std::optional<Error> SceneOf<Real>::set_bodies(const BodiesOf<Real>& bodies) noe
     if (auto error = scene::check(bodies)) return error;
     const bool same_set = bodies.count == s.spheres.size() && s.free_ids.empty();
     const bool rules_kept = same_set && same_rules(bodies.filters, s);
-    const scene::Source<Real> source = source_of(bodies);
+    const broad::Source<Real> source = source_of(bodies);
     if (rules_kept) {
       const Result<bool> same = same_spheres<Real>(s, source);
       if (!same) return same.error();
@@ -427,7 +427,7 @@ std::optional<Error> SceneOf<Real>::set_bodies(const BodiesOf<Real>& bodies) noe
     s.moved = true;
     if (!rules_kept) s.stale = true;
     if (!same_set) s.frames = 0;
-    const scene::Means means = s.workspace.state().means(bodies.count);
+    const broad::Means means = s.workspace.state().means(bodies.count);
     if (auto error = copy_spheres<Real>(means, source, s.spheres)) {
       s.clear();
       return error;

@@ -23,7 +23,7 @@ Result<Workspace> Workspace::make(const WorkspaceOptions& options) noexcept {
                                                        options.threads, kMaxThreads)};
     }
     auto state = std::make_unique<State>();
-    state->kernels = scene::find_kernels(options.instruction_set);
+    state->kernels = broad::find_kernels(options.instruction_set);
     if (state->kernels == nullptr) {
       return Error{Errc::invalid_argument,
                    fmt::format("instruction set \"{}\" is not to be had here; "
@@ -47,35 +47,35 @@ Workspace& Workspace::operator=(Workspace&& other) noexcept = default;
 Workspace::~Workspace() = default;
 
 std::size_t Workspace::bytes() const noexcept {
-  const scene::OrderMemory& o = state_->order;
+  const broad::OrderMemory& o = state_->order;
   std::size_t sum = 0;
-  const std::initializer_list<const scene::Buffer*> buffers = {&o.staged,
-                                                               &o.staged_ids,
-                                                               &o.parted,
-                                                               &o.parted_ids,
-                                                               &o.parted_buckets,
-                                                               &o.buckets,
-                                                               &o.tables,
-                                                               &o.counts,
-                                                               &o.sorted,
-                                                               &o.ids,
-                                                               &o.cull,
-                                                               &state_->trees.items,
-                                                               &state_->trees.spare,
-                                                               &state_->trees.codes,
-                                                               &state_->trees.boxes,
-                                                               &state_->boxes.corners,
-                                                               &state_->boxes.high,
-                                                               &state_->boxes.low,
-                                                               &state_->scratch};
-  for (const scene::Buffer* buffer : buffers) sum += buffer->bytes();
+  const std::initializer_list<const Buffer*> buffers = {&o.staged,
+                                                        &o.staged_ids,
+                                                        &o.parted,
+                                                        &o.parted_ids,
+                                                        &o.parted_buckets,
+                                                        &o.buckets,
+                                                        &o.tables,
+                                                        &o.counts,
+                                                        &o.sorted,
+                                                        &o.ids,
+                                                        &o.cull,
+                                                        &state_->trees.items,
+                                                        &state_->trees.spare,
+                                                        &state_->trees.codes,
+                                                        &state_->trees.boxes,
+                                                        &state_->boxes.corners,
+                                                        &state_->boxes.high,
+                                                        &state_->boxes.low,
+                                                        &state_->scratch};
+  for (const Buffer* buffer : buffers) sum += buffer->bytes();
   sum += state_->by_id.bytes();
-  for (const scene::TaskList& list : state_->search.lists) sum += list.memory.bytes();
+  for (const broad::TaskList& list : state_->search.lists) sum += list.memory.bytes();
   return sum;
 }
 
-scene::Means Workspace::State::means(std::size_t bodies) const noexcept {
-  return {bodies < kParallelBodies ? nullptr : executor.get(), kernels};
+broad::Means Workspace::State::means(std::size_t bodies) const noexcept {
+  return {{bodies < kParallelBodies ? nullptr : executor.get()}, kernels};
 }
 
 }  // namespace harpoon

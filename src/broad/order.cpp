@@ -5,12 +5,12 @@
 //   3. by bucket, part by part.
 // Each pass reads in order and writes to few places at a time: memory order is what decides.
 
-#include "scene/order.hpp"
+#include "broad/order.hpp"
 
 #include <algorithm>
 #include <atomic>
 
-namespace harpoon::scene {
+namespace harpoon::broad {
 namespace {
 
 /// Bodies that a part should hold: with tables they fill about half of a second-level cache.
@@ -380,4 +380,4 @@ template void place_giants(const Means&, const Source<double>&, const Survey<dou
 template void place_giants(const Means&, const Source<double>&, const Survey<double>&, const Plan&,
                            OrderMemory&, Ordered<double, double>&) noexcept;
 
-}  // namespace harpoon::scene
+}  // namespace harpoon::broad

@@ -1,6 +1,6 @@
 // What a survey takes for the world: most bodies, whatever a few of them do.
 
-#include "scene/survey.hpp"
+#include "broad/survey.hpp"
 
 #include <gtest/gtest.h>
 
@@ -15,13 +15,13 @@ constexpr int kBodies = 5000;
 template <class Real>
 class SurveyTest : public ::testing::Test {
  protected:
-  static scene::Survey<Real> survey_of(const std::vector<SphereOf<Real>>& spheres) {
-    const scene::Means means{nullptr, scene::find_kernels("")};
+  static broad::Survey<Real> survey_of(const std::vector<SphereOf<Real>>& spheres) {
+    const broad::Means means{{nullptr}, broad::find_kernels("")};
     const SphereOf<Real>* s = spheres.data();
-    const scene::Source<Real> source{&s->x, &s->y, &s->z, &s->r, sizeof *s, spheres.size()};
-    scene::Survey<Real> out;
+    const broad::Source<Real> source{&s->x, &s->y, &s->z, &s->r, sizeof *s, spheres.size()};
+    broad::Survey<Real> out;
     std::vector<std::uint32_t> excluded;
-    EXPECT_FALSE(scene::survey(means, source, 0, excluded, out));
+    EXPECT_FALSE(broad::survey(means, source, 0, excluded, out));
     excluded_ = excluded;
     return out;
   }

@@ -7,7 +7,7 @@
 #include <cstddef>
 #include <cstdint>
 
-namespace harpoon::scene {
+namespace harpoon::broad {
 
 /// Bodies that are searched together; every block starts at a multiple of this in its level.
 inline constexpr std::size_t kBlockBodies = 256;
@@ -112,4 +112,4 @@ struct Tree {
 };
 static_assert(kBlockBodies == std::size_t{kTreeWidth} * kTreeWidth, "a block is a node");
 
-}  // namespace harpoon::scene
+}  // namespace harpoon::broad

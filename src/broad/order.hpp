@@ -7,14 +7,14 @@
 #include <cstdint>
 #include <optional>
 
+#include "base/buffer.hpp"
+#include "broad/kernels.hpp"
+#include "broad/means.hpp"
+#include "broad/plan.hpp"
+#include "broad/survey.hpp"
 #include "harpoon/error.hpp"
-#include "scene/buffer.hpp"
-#include "scene/kernels.hpp"
-#include "scene/means.hpp"
-#include "scene/plan.hpp"
-#include "scene/survey.hpp"
 
-namespace harpoon::scene {
+namespace harpoon::broad {
 
 /// What an ordering needs and leaves behind. Kept between calls for its memory alone.
 struct OrderMemory {
@@ -60,4 +60,4 @@ template <class Real, class Cull>
 void place_giants(const Means& means, const Source<Real>& source, const Survey<Real>& survey,
                   const Plan& plan, OrderMemory& memory, Ordered<Real, Cull>& out) noexcept;
 
-}  // namespace harpoon::scene
+}  // namespace harpoon::broad

@@ -11,11 +11,11 @@
 #include <optional>
 #include <span>
 
+#include "base/buffer.hpp"
+#include "broad/order.hpp"
 #include "harpoon/error.hpp"
-#include "scene/buffer.hpp"
-#include "scene/order.hpp"
 
-namespace harpoon::scene {
+namespace harpoon::broad {
 
 /// A body as the curve meets it.
 template <class Real>
@@ -49,4 +49,4 @@ std::optional<Error> order_in_trees(const Means& means, const Source<Real>& sour
                                     OrderMemory& memory, TreeMemory& tree_memory,
                                     Ordered<Real, Real>& out);
 
-}  // namespace harpoon::scene
+}  // namespace harpoon::broad

@@ -7,10 +7,10 @@
 #include <optional>
 #include <vector>
 
+#include "broad/order.hpp"
 #include "harpoon/scene.hpp"
-#include "scene/order.hpp"
 
-namespace harpoon::scene {
+namespace harpoon::broad {
 
 /// Decides by ids which pairs count.
 class PairFilter {
@@ -91,4 +91,4 @@ std::optional<Error> search(const Means& means, const Ordered<Real, Cull>& bodie
                             const SearchRule& rule, const PairFilter& filter, std::uint64_t limit,
                             SearchMemory& memory);
 
-}  // namespace harpoon::scene
+}  // namespace harpoon::broad

@@ -6,7 +6,7 @@
 #include <cstddef>
 #include <new>
 
-namespace harpoon::scene {
+namespace harpoon {
 
 /// Cache-line-aligned memory, in large pages where it is large; null when there is none.
 void* allocate_large(std::size_t bytes) noexcept;
@@ -61,4 +61,4 @@ struct LargeAllocator {
   friend bool operator==(const LargeAllocator&, const LargeAllocator&) noexcept { return true; }
 };
 
-}  // namespace harpoon::scene
+}  // namespace harpoon

@@ -9,9 +9,9 @@
 #include <cstdint>
 #include <limits>
 
-#include "scene/grid.hpp"
+#include "broad/grid.hpp"
 
-namespace harpoon::scene {
+namespace harpoon::broad {
 
 /// Radii are classed by powers of two below the largest; the last class takes all the rest.
 inline constexpr std::size_t kRadiusClasses = 24;
@@ -72,4 +72,4 @@ template <class Cull>
 Grid<Cull> make_grid(const LevelPlan& level, const CullMap& map, const Cull min[3],
                      const Cull max[3]) noexcept;
 
-}  // namespace harpoon::scene
+}  // namespace harpoon::broad

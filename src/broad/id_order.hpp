@@ -8,11 +8,11 @@
 #include <optional>
 #include <span>
 
+#include "base/buffer.hpp"
+#include "broad/search.hpp"
 #include "harpoon/error.hpp"
-#include "scene/buffer.hpp"
-#include "scene/search.hpp"
 
-namespace harpoon::scene {
+namespace harpoon::broad {
 
 /// What an ordering needs, and the memory of its result.
 struct IdOrderMemory {
@@ -35,4 +35,4 @@ std::optional<Error> ids_in_order(const Means& means, const std::uint32_t* ids, 
                                   std::span<const TaskList> lists, IdOrderMemory& memory,
                                   Candidates& out);
 
-}  // namespace harpoon::scene
+}  // namespace harpoon::broad

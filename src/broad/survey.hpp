@@ -13,12 +13,12 @@
 #include <type_traits>
 #include <vector>
 
+#include "broad/kernels.hpp"
+#include "broad/means.hpp"
+#include "broad/plan.hpp"
 #include "harpoon/error.hpp"
-#include "scene/kernels.hpp"
-#include "scene/means.hpp"
-#include "scene/plan.hpp"
 
-namespace harpoon::scene {
+namespace harpoon::broad {
 
 template <class Real>
 struct Survey {
@@ -69,4 +69,4 @@ template <class Real>
 std::optional<Error> survey(const Means& means, const Source<Real>& source, double margin,
                             std::vector<std::uint32_t>& excluded, Survey<Real>& out);
 
-}  // namespace harpoon::scene
+}  // namespace harpoon::broad

@@ -1,11 +1,11 @@
-#include "scene/survey.hpp"
+#include "broad/survey.hpp"
 
 #include <algorithm>
 #include <cmath>
 #include <cstring>
 #include <limits>
 
-namespace harpoon::scene {
+namespace harpoon::broad {
 namespace {
 
 /// Fewest bodies of a piece of work.
@@ -348,4 +348,4 @@ template std::optional<Error> survey(const Means&, const Source<float>&, double,
 template std::optional<Error> survey(const Means&, const Source<double>&, double,
                                      std::vector<std::uint32_t>&, Survey<double>&);
 
-}  // namespace harpoon::scene
+}  // namespace harpoon::broad

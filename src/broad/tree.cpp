@@ -1,4 +1,4 @@
-#include "scene/tree.hpp"
+#include "broad/tree.hpp"
 
 #include <algorithm>
 #include <array>
@@ -7,7 +7,7 @@
 #include <limits>
 #include <utility>
 
-namespace harpoon::scene {
+namespace harpoon::broad {
 namespace {
 
 /// Fewest bodies of a piece of work.
@@ -323,4 +323,4 @@ template std::optional<Error> order_in_trees(const Means&, const Source<float>&,
 template std::optional<Error> order_in_trees(const Means&, const Source<double>&, double,
                                              OrderMemory&, TreeMemory&, Ordered<double, double>&);
 
-}  // namespace harpoon::scene
+}  // namespace harpoon::broad

@@ -8,10 +8,10 @@
 #include <string_view>
 #include <type_traits>
 
+#include "broad/grid.hpp"
 #include "harpoon/records.hpp"
-#include "scene/grid.hpp"
 
-namespace harpoon::scene {
+namespace harpoon::broad {
 
 /// The caller's bodies: four arrays of numbers, `stride_bytes` apart.
 template <class Real>
@@ -169,4 +169,4 @@ struct KernelTable {
 /// build or machine has no such set.
 const KernelTable* find_kernels(std::string_view instruction_set) noexcept;
 
-}  // namespace harpoon::scene
+}  // namespace harpoon::broad

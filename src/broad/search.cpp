@@ -1,9 +1,9 @@
-#include "scene/search.hpp"
+#include "broad/search.hpp"
 
 #include <algorithm>
 #include <limits>
 
-namespace harpoon::scene {
+namespace harpoon::broad {
 namespace {
 
 /// Smallest list; also how many candidates may pile up beyond the limit before they are counted.
@@ -271,4 +271,4 @@ template std::optional<Error> search(const Means&, const Ordered<double, double>
                                      const SearchRule&, const PairFilter&, std::uint64_t,
                                      SearchMemory&);
 
-}  // namespace harpoon::scene
+}  // namespace harpoon::broad

@@ -3,14 +3,14 @@
 // few windows but many bodies in each; a window of up to 16 bodies is one vector test. The
 // constants are nanoseconds measured on one machine; only their ratios matter, and only for speed.
 
-#include "scene/plan.hpp"
+#include "broad/plan.hpp"
 
 #include <algorithm>
 #include <array>
 #include <cmath>
 #include <limits>
 
-namespace harpoon::scene {
+namespace harpoon::broad {
 namespace {
 
 constexpr double kWindowNs = 2.5;  ///< to find a window
@@ -390,4 +390,4 @@ template Grid<float> make_grid(const LevelPlan&, const CullMap&, const float[3],
 template Grid<double> make_grid(const LevelPlan&, const CullMap&, const double[3],
                                 const double[3]) noexcept;
 
-}  // namespace harpoon::scene
+}  // namespace harpoon::broad

@@ -3,7 +3,7 @@
 // vector at a time and the hits are compressed into a list of candidates. Culling may use any
 // arithmetic because its radii are inflated; what decides is src/collide/sphere_sphere.inl alone.
 
-#include "scene/kernels.hpp"
+#include "broad/kernels.hpp"
 
 #include <algorithm>
 #include <bit>
@@ -11,7 +11,7 @@
 #include <limits>
 
 #undef HWY_TARGET_INCLUDE
-#define HWY_TARGET_INCLUDE "scene/kernels.cpp"
+#define HWY_TARGET_INCLUDE "broad/kernels.cpp"
 #include "hwy/foreach_target.h"
 #include "hwy/highway.h"
 
@@ -20,7 +20,7 @@
 #include "collide/simd.inl"
 
 HWY_BEFORE_NAMESPACE();
-namespace harpoon::scene::HWY_NAMESPACE {
+namespace harpoon::broad::HWY_NAMESPACE {
 namespace {
 
 namespace hn = hwy::HWY_NAMESPACE;
@@ -44,18 +44,18 @@ static_assert(std::endian::native == std::endian::little);
 
 // In the order of a frame; each uses those before it.
 // clang-format off
-#include "scene/bodies.inl"
-#include "scene/survey.inl"
-#include "scene/cells.inl"
-#include "scene/cull.inl"
-#include "scene/candidates.inl"
-#include "scene/node_boxes.inl"
-#include "scene/shapes.inl"
-#include "scene/grid_search.inl"
-#include "scene/leaves.inl"
-#include "scene/scan.inl"
-#include "scene/tree_search.inl"
-#include "scene/contacts.inl"
+#include "broad/bodies.inl"
+#include "broad/survey.inl"
+#include "broad/cells.inl"
+#include "broad/cull.inl"
+#include "broad/candidates.inl"
+#include "broad/node_boxes.inl"
+#include "broad/shapes.inl"
+#include "broad/grid_search.inl"
+#include "broad/leaves.inl"
+#include "broad/scan.inl"
+#include "broad/tree_search.inl"
+#include "broad/contacts.inl"
 // clang-format on
 
 template <template <class, std::size_t> class Shape, class Cull>
@@ -95,11 +95,11 @@ const KernelTable* get_kernels() {
 }
 
 }  // namespace
-}  // namespace harpoon::scene::HWY_NAMESPACE
+}  // namespace harpoon::broad::HWY_NAMESPACE
 HWY_AFTER_NAMESPACE();
 
 #if HWY_ONCE
-namespace harpoon::scene {
+namespace harpoon::broad {
 namespace {
 
 HWY_EXPORT(get_kernels);
@@ -111,5 +111,5 @@ const KernelTable* find_kernels(std::string_view instruction_set) noexcept {
   return target == 0 ? nullptr : call_for_target(HWY_DISPATCH_TABLE(get_kernels), target);
 }
 
-}  // namespace harpoon::scene
+}  // namespace harpoon::broad
 #endif

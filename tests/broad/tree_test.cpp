@@ -1,14 +1,14 @@
 // Trees alone, on all worlds: each body is in one leaf, every pair that touches is found once, and
 // neither threads nor the order of bodies in memory change what is found.
 
-#include "scene/tree.hpp"
+#include "broad/tree.hpp"
 
 #include <gtest/gtest.h>
 
 #include "base/float_environment.hpp"
+#include "broad/search.hpp"
 #include "scene/brute_force.hpp"
 #include "scene/odd_worlds.hpp"
-#include "scene/search.hpp"
 
 namespace harpoon::testing {
 namespace {
@@ -27,21 +27,21 @@ class TreeTest : public ::testing::Test {
   std::vector<IndexPair> near_pairs(const std::vector<SphereOf<Real>>& spheres,
                                     Executor* executor) {
     const FloatEnvironment environment;
-    const scene::Means means{executor, scene::find_kernels("")};
-    scene::Source<Real> source = {};
+    const broad::Means means{{executor}, broad::find_kernels("")};
+    broad::Source<Real> source = {};
     if (const SphereOf<Real>* const s = spheres.data(); s != nullptr) {
       source = {&s->x, &s->y, &s->z, &s->r, sizeof *s, spheres.size()};
     }
-    scene::Ordered<Real, Real> ordered;
-    EXPECT_FALSE(scene::order_in_trees(means, source, 0, order_, trees_, ordered));
+    broad::Ordered<Real, Real> ordered;
+    EXPECT_FALSE(broad::order_in_trees(means, source, 0, order_, trees_, ordered));
     check(ordered, spheres.size());
-    scene::SearchMemory memory;
-    const scene::PairFilter filter{Filters{}};
-    EXPECT_FALSE(scene::search(means, ordered, {}, filter, 1U << 30, memory));
+    broad::SearchMemory memory;
+    const broad::PairFilter filter{Filters{}};
+    EXPECT_FALSE(broad::search(means, ordered, {}, filter, 1U << 30, memory));
     EXPECT_FALSE(memory.gave_up);
     std::vector<IndexPair> pairs;
     for (std::size_t l = 0; l < memory.used; ++l) {
-      const scene::Candidates& list = memory.lists[l].list;
+      const broad::Candidates& list = memory.lists[l].list;
       for (std::size_t p = 0; p < list.count; ++p) {
         const auto [a, b] = std::minmax(ordered.ids[list.i[p]], ordered.ids[list.j[p]]);
         pairs.push_back({a, b});
@@ -52,7 +52,7 @@ class TreeTest : public ::testing::Test {
 
  private:
   /// Trees part the sorted positions, and those the ids.
-  static void check(const scene::Ordered<Real, Real>& ordered, std::size_t bodies) {
+  static void check(const broad::Ordered<Real, Real>& ordered, std::size_t bodies) {
     ASSERT_EQ(ordered.bodies, bodies);
     std::vector<bool> seen(bodies);
     std::size_t position = 0;
@@ -67,8 +67,8 @@ class TreeTest : public ::testing::Test {
     }
   }
 
-  scene::OrderMemory order_;
-  scene::TreeMemory trees_;
+  broad::OrderMemory order_;
+  broad::TreeMemory trees_;
 };
 using Reals = ::testing::Types<float, double>;
 TYPED_TEST_SUITE(TreeTest, Reals);

@@ -1,6 +1,6 @@
 #pragma once
 
-// Threads and instruction set of a call, and how work is cut among them.
+// The threads of a call, and how work is cut among them.
 
 #include <algorithm>
 #include <cstddef>
@@ -8,13 +8,11 @@
 
 #include "base/executor.hpp"
 #include "harpoon/error.hpp"
-#include "scene/kernels.hpp"
 
-namespace harpoon::scene {
+namespace harpoon {
 
-struct Means {
+struct Workers {
   Executor* executor;  ///< null: the calling thread
-  const KernelTable* kernels;
 
   [[nodiscard]] unsigned threads() const noexcept {
     return executor == nullptr ? 1 : executor->threads();
@@ -43,4 +41,4 @@ struct Means {
   }
 };
 
-}  // namespace harpoon::scene
+}  // namespace harpoon

@@ -1,4 +1,4 @@
-#include "scene/boxes.hpp"
+#include "broad/boxes.hpp"
 
 #include <algorithm>
 #include <array>
@@ -7,7 +7,7 @@
 #include <limits>
 #include <type_traits>
 
-namespace harpoon::scene {
+namespace harpoon::broad {
 namespace {
 
 /// Boxes much larger than the rest are taken out of the grid when they are no more than this.
@@ -481,4 +481,4 @@ template Result<BoxOrder> order_boxes(const Means&, const BoxSource<double>&, Bo
                                       OrderMemory&, std::vector<std::uint32_t>&,
                                       OrderedBoxes<double, double>&);
 
-}  // namespace harpoon::scene
+}  // namespace harpoon::broad

@@ -10,12 +10,12 @@
 #include <optional>
 #include <vector>
 
+#include "broad/order.hpp"
+#include "broad/search.hpp"
+#include "broad/tree.hpp"
 #include "harpoon/scene.hpp"
-#include "scene/order.hpp"
-#include "scene/search.hpp"
-#include "scene/tree.hpp"
 
-namespace harpoon::scene {
+namespace harpoon::broad {
 
 /// The caller's boxes.
 template <class Real>
@@ -67,4 +67,4 @@ std::optional<Error> order_boxes_in_trees(const Means& means, const BoxSource<Re
                                           BoxMemory& memory, OrderMemory& order_memory,
                                           TreeMemory& tree_memory, OrderedBoxes<Real, Real>& out);
 
-}  // namespace harpoon::scene
+}  // namespace harpoon::broad

@@ -1,10 +1,10 @@
-#include "scene/id_order.hpp"
+#include "broad/id_order.hpp"
 
 #include <algorithm>
 #include <limits>
 #include <utility>
 
-namespace harpoon::scene {
+namespace harpoon::broad {
 namespace {
 
 /// Candidates that a part should hold.
@@ -160,4 +160,4 @@ std::optional<Error> ids_in_order(const Means& means, const std::uint32_t* ids, 
   return IdSorter<IdPair>(means, ids, bodies, lists, memory).run(out);
 }
 
-}  // namespace harpoon::scene
+}  // namespace harpoon::broad

@@ -330,7 +330,8 @@ Plan make_plan(const Census& census) noexcept {
     in_double = in_float.of_one_class() || !(safe.cost_ns() <= kDoubleCost * in_float.cost_ns());
     if (!in_double) safe.write(plan);
   }
-  plan.in_trees = census.giants > kMaxGiantsOfFolded && most_are_folded(plan);
+  plan.in_trees =
+      census.giants_abound || (census.giants > kMaxGiantsOfFolded && most_are_folded(plan));
   if (in_double) {
     plan.cull_double = true;
     plan.map = cull_map(census, true);

@@ -29,9 +29,10 @@ struct Census {
   double max[3] = {0, 0, 0};
   bool bodies_beyond = false;  ///< some are beyond min or max
   double margin = 0;
-  std::size_t giants = 0;     ///< bodies in no grid, which are tested against blocks of the others
-  double giant_distance = 0;  ///< largest of those that come near the core
-  bool cull_double = false;   ///< culling has to be in double
+  std::size_t giants = 0;      ///< bodies in no grid, which are tested against blocks of the others
+  bool giants_abound = false;  ///< too many for that, so they are among the others
+  double giant_distance = 0;   ///< largest of those that come near the core
+  bool cull_double = false;    ///< culling has to be in double
   std::size_t real_digits = std::numeric_limits<float>::digits;
   std::array<RadiusClass, kRadiusClasses> classes;
   /// How much of each axis the bodies occupy; the whole extent where that is not known.

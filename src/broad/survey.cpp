@@ -39,7 +39,7 @@ constexpr std::size_t kUsualPart = 16;
 /// its radius at least such a part of the core's longest side,
 constexpr double kGiantOfCore = 1.0 / 16;
 /// and there are no more than kGiantsOfRoot times the square root of the bodies, because all pairs
-/// of giants are tested.
+/// of giants are tested. More of them are a case for trees.
 constexpr double kGiantsOfRoot = 8;
 
 template <class Real>
@@ -271,7 +271,7 @@ class Surveyor {
 
   /// How many of the classes are giants.
   [[nodiscard]] std::size_t count_giants(
-      const std::array<RadiusClass, kWideClasses>& classes) const noexcept {
+      const std::array<RadiusClass, kWideClasses>& classes) noexcept {
     const Census& census = out_.census;
     std::size_t larger = 0;
     double usual = 0;
@@ -286,8 +286,11 @@ class Surveyor {
     const double most = kGiantsOfRoot * std::sqrt(static_cast<double>(census.bodies));
     double giants = 0;
     for (std::size_t c = 0; c < kWideClasses; ++c) {
+      if (classes[c].bodies != 0 && !(classes[c].max_radius > least)) {
+        out_.census.giants_abound = giants > most;
+        return out_.census.giants_abound ? 0 : c;
+      }
       giants += static_cast<double>(classes[c].bodies);
-      if (giants > most || (classes[c].bodies != 0 && !(classes[c].max_radius > least))) return c;
     }
     return 0;
   }

@@ -65,7 +65,7 @@ class CostTest : public ::testing::Test {
           OddWorldMaker<Real> maker(++seed);
           Spheres spheres = maker.usual(bodies, packed);
           const double distance = std::pow(10.0, 3 + 12 * static_cast<double>(seed % 7) / 6);
-          const int added = std::min(count, bodies / 10);
+          const int added = std::min(count, bodies / 20);
           maker.add(spheres, strays, strays == Strays::none ? 0 : added, distance);
           const bool usual = strays != Strays::sizes && strays != Strays::beside;
           visit(World{std::string(packed ? "packed" : "gas") + " strays " +

@@ -116,7 +116,7 @@ class Sorter {
     for (std::size_t level = 0; level < plan_.level_count; ++level) {
       if (auto error = sort_level(source, ids, out_.grids[level])) return error;
     }
-    out_.crowding = crowding_;
+    out_.most_in_bucket = most_in_bucket_;
     return std::nullopt;
   }
 
@@ -233,14 +233,16 @@ class Sorter {
     std::fill(ends + first, ends + last, 0U);
     for (std::size_t i = run.begin; i < run.end; ++i) ++ends[run.buckets[i]];
     auto position = static_cast<std::uint32_t>(run.begin);
-    std::uint64_t crowding = 0;
+    std::uint32_t most = 0;
     for (std::size_t b = first; b < last; ++b) {
       const std::uint32_t bodies = ends[b];
       ends[b] = position;
       position += bodies;
-      crowding += std::uint64_t{bodies} * bodies;
+      most = std::max(most, bodies);
     }
-    crowding_ += crowding;
+    std::uint32_t before = most_in_bucket_;
+    while (before < most && !most_in_bucket_.compare_exchange_weak(before, most)) {
+    }
     auto* const spheres = memory_.sorted.template as<SphereOf<Real>>();
     auto* const ids = memory_.ids.as<std::uint32_t>();
     with_bodies(run.source, [&](const auto& body_at) {
@@ -314,7 +316,7 @@ class Sorter {
   const Plan& plan_;
   OrderMemory& memory_;
   Ordered<Real, Cull>& out_;
-  std::atomic<std::uint64_t> crowding_{0};
+  std::atomic<std::uint32_t> most_in_bucket_{0};
 };
 
 }  // namespace

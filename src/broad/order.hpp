@@ -33,10 +33,9 @@ template <class Real, class Cull>
 struct Ordered {
   std::array<Grid<Cull>, kRadiusClasses> grids;  ///< coarsest level first
   std::size_t levels = 0;
-  std::size_t bodies = 0;   ///< in grids
-  std::size_t scanned = 0;  ///< in none; set before ordering, which makes room for them
-  /// Pairs of bodies that share a bucket, twice, and bodies: so many tests there must be at least.
-  std::uint64_t crowding = 0;
+  std::size_t bodies = 0;            ///< in grids
+  std::size_t scanned = 0;           ///< in none; set before ordering, which makes room for them
+  std::uint32_t most_in_bucket = 0;  ///< bodies; at least all pairs of them are tested
   const SphereOf<Real>* spheres = nullptr;
   std::uint32_t* ids = nullptr;
   CullArrays<Cull> cull = {};

@@ -202,7 +202,8 @@ std::optional<Error> search(const Means& means, const Ordered<Real, Cull>& bodie
   common.most_tests = bodies.tree_count != 0 ? std::numeric_limits<std::uint64_t>::max()
                                              : kMostTests * (bodies.bodies + bodies.scanned);
   memory.tests_in_vain = 0;
-  memory.gave_up = bodies.tree_count == 0 && bodies.crowding / 2 > common.most_tests;
+  const std::uint64_t crowd = bodies.most_in_bucket;
+  memory.gave_up = bodies.tree_count == 0 && crowd * crowd / 2 > common.most_tests;
   if (memory.gave_up) return std::nullopt;
   const auto scanned = static_cast<std::uint32_t>(bodies.bodies);
   const SearchJob<Cull> job{bodies.grids.data(),

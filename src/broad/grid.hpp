@@ -70,7 +70,7 @@ inline constexpr double kRadiusScale = 1.0 + 0x1p-19;
 inline constexpr double kFarPad = 0x1p-22;
 /// Below these distances squares underflow and the collider finds the centres to coincide.
 template <class Real, class Cull>
-inline constexpr double underflow_pad = sizeof(Real) + sizeof(Cull) == 16 ? 0x1p-520 : 0x1p-60;
+inline constexpr double kUnderflowPad = sizeof(Real) + sizeof(Cull) == 16 ? 0x1p-520 : 0x1p-60;
 /// Double coordinates and radii are brought within these before they become float: squares stay
 /// finite, bodies only come closer, and a radius so large reaches everything.
 inline constexpr double kFarCoordinate = 0x1p60;

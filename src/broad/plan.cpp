@@ -166,7 +166,7 @@ CullMap cull_map(const Census& census, bool cull_double) noexcept {
   CullMap map;
   const bool real_double = census.real_digits > std::numeric_limits<float>::digits;
   map.radius_pad =
-      real_double && cull_double ? underflow_pad<double, double> : underflow_pad<double, float>;
+      real_double && cull_double ? kUnderflowPad<double, double> : kUnderflowPad<double, float>;
   if (real_double && !cull_double) {
     std::copy(census.min, census.min + 3, map.origin);
     map.radius_pad += largest_extent(census) * 0x1p-22;

@@ -182,7 +182,7 @@ class Blocks {
 template <class Real, class Cull>
 Cull largest_pad() noexcept {
   return sizeof(Cull) < sizeof(Real) ? std::numeric_limits<Cull>::infinity()
-                                     : static_cast<Cull>(underflow_pad<Real, Cull>);
+                                     : static_cast<Cull>(kUnderflowPad<Real, Cull>);
 }
 
 }  // namespace

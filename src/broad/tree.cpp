@@ -291,7 +291,7 @@ std::optional<Error> order_in_trees(const Means& means, const Source<Real>& sour
   if (auto error = grow_trees(std::span(items, count), tree_memory, out)) return error;
   if (!reserve_sorted(memory, count, out)) return out_of_memory();
   CullMap map;
-  map.radius_pad = underflow_pad<Real, Real> + margin / 2;
+  map.radius_pad = kUnderflowPad<Real, Real> + margin / 2;
   auto* const spheres = memory.sorted.template as<SphereOf<Real>>();
   const auto& kernels = means.kernels->of<Real>().template cull<Real>();
   if (auto error = means.run_pieces(count, kPieceBodies,

@@ -78,10 +78,10 @@ class CostTest : public ::testing::Test {
       }
     }
     for (const OddWorld odd : kOddWorlds) {
-      visit(World{"odd world " + std::to_string(static_cast<int>(odd)) + " seed " +
-                      std::to_string(++seed),
-                  false},
-            OddWorldMaker<Real>(seed).make(odd, bodies));
+      ++seed;
+      const std::string name =
+          "odd world " + std::to_string(static_cast<int>(odd)) + " seed " + std::to_string(seed);
+      visit(World{name, false}, OddWorldMaker<Real>(seed).make(odd, bodies));
     }
   }
 

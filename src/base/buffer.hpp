@@ -39,6 +39,12 @@ class Buffer {
   std::size_t bytes_ = 0;
 };
 
+/// Memory held by all of them.
+template <class... Memories>
+[[nodiscard]] std::size_t bytes_of(const Memories&... memories) noexcept {
+  return (memories.bytes() + ...);
+}
+
 /// Memory as a buffer's for std::vector, so that random access over it meets large pages.
 template <class T>
 struct LargeAllocator {

@@ -7,6 +7,8 @@
 #include <limits>
 #include <type_traits>
 
+#include "base/out_of_memory.hpp"
+
 namespace harpoon::broad {
 namespace {
 
@@ -37,10 +39,6 @@ constexpr double kSidesSearched = 3;
 constexpr double kMaxRelativeLoss = 0.02;
 /// Fewest boxes of a piece of work.
 constexpr std::size_t kPieceBoxes = 8192;
-
-Error out_of_memory() {
-  return {Errc::out_of_memory, "out of memory"};
-}
 
 template <class Real>
 bool proper(const Real* box) noexcept {  // false for NaN

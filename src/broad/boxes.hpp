@@ -35,6 +35,8 @@ struct BoxMemory {
   Buffer high;     ///< highest corners in sorted order, one array for each axis
   Buffer low;      ///< lowest corners along the axes that the grid ignores
   std::vector<std::uint32_t> invalid, scanned;
+
+  [[nodiscard]] std::size_t bytes() const noexcept { return bytes_of(corners, high, low); }
 };
 
 /// Boxes in search order, in culling coordinates.

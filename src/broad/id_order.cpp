@@ -4,6 +4,8 @@
 #include <limits>
 #include <utility>
 
+#include "base/out_of_memory.hpp"
+
 namespace harpoon::broad {
 namespace {
 
@@ -55,7 +57,7 @@ class IdSorter {
     const std::size_t wanted = std::clamp<std::size_t>(count / kPartCandidates, 1, kMaxParts);
     while ((bodies_ >> shift_) >= wanted && shift_ < 31) ++shift_;
     parts_ = (bodies_ >> shift_) + 1;
-    if (!reserve(count)) return Error{Errc::out_of_memory, "out of memory"};
+    if (!reserve(count)) return out_of_memory();
     out.i = memory_.list.as<std::uint32_t>();
     out.j = out.i + count + kSlack;
     out.count = out.capacity = count;

@@ -20,7 +20,7 @@ struct IdOrderMemory {
   Buffer parted, ordered, starts, counts;
 
   [[nodiscard]] std::size_t bytes() const noexcept {
-    return list.bytes() + parted.bytes() + ordered.bytes() + starts.bytes() + counts.bytes();
+    return bytes_of(list, parted, ordered, starts, counts);
   }
 };
 

@@ -10,6 +10,8 @@
 #include <algorithm>
 #include <atomic>
 
+#include "base/out_of_memory.hpp"
+
 namespace harpoon::broad {
 namespace {
 
@@ -20,10 +22,6 @@ constexpr std::size_t kWholeBodies = 131072;
 constexpr std::size_t kMaxParts = 512;
 /// Below this many bodies a pass is not shared between threads.
 constexpr std::size_t kParallelBodies = 16384;
-Error out_of_memory() {
-  return {Errc::out_of_memory, "out of memory"};
-}
-
 /// Tasks for a pass over `bodies`, and where they begin.
 struct Chunks {
   std::size_t bodies, count;

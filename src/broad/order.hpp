@@ -22,6 +22,11 @@ struct OrderMemory {
   Buffer parted, parted_ids, parted_buckets;  ///< bodies by part of a level
   Buffer buckets, tables, counts;
   Buffer sorted, ids, cull;
+
+  [[nodiscard]] std::size_t bytes() const noexcept {
+    return bytes_of(staged, staged_ids, parted, parted_ids, parted_buckets, buckets, tables, counts,
+                    sorted, ids, cull);
+  }
 };
 
 /// Most trees: each but the coarsest has at least as many bodies as those that are coarser.

@@ -3,6 +3,8 @@
 #include <algorithm>
 #include <limits>
 
+#include "base/out_of_memory.hpp"
+
 namespace harpoon::broad {
 namespace {
 
@@ -244,7 +246,7 @@ std::optional<Error> search(const Means& means, const Ordered<Real, Cull>& bodie
     collector.finish(task.list);
   });
   if (error) return error;
-  if (common.out_of_memory) return Error{Errc::out_of_memory, "out of memory"};
+  if (common.out_of_memory) return out_of_memory();
   memory.gave_up = common.gave_up;
   // How many were begun when the limit was passed depends on the threads, the limit does not.
   memory.tests_in_vain = common.most_tests;

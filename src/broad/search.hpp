@@ -52,6 +52,12 @@ struct SearchMemory {
   bool gave_up = false;             ///< it took too many tests: nothing is known
   std::uint64_t tests_in_vain = 0;  ///< when it gave up: those that it was given
 
+  [[nodiscard]] std::size_t bytes() const noexcept {
+    std::size_t sum = 0;
+    for (const TaskList& list : lists) sum += list.memory.bytes();
+    return sum;
+  }
+
   /// Pairs tested by the latest search.
   [[nodiscard]] std::uint64_t tests() const noexcept {
     if (gave_up) return tests_in_vain;

@@ -7,6 +7,8 @@
 #include <limits>
 #include <utility>
 
+#include "base/out_of_memory.hpp"
+
 namespace harpoon::broad {
 namespace {
 
@@ -18,10 +20,6 @@ constexpr int kCodeBits = 10;
 constexpr double kLeastSpread = 0x1p-1000;
 /// Ranges from this size on are sorted digit by digit.
 constexpr std::size_t kDigitBodies = 2048;
-
-Error out_of_memory() {
-  return {Errc::out_of_memory, "out of memory"};
-}
 
 /// The box around the centres of some items.
 template <class Real>

@@ -28,6 +28,8 @@ struct TreeItem {
 /// Memory kept between calls.
 struct TreeMemory {
   Buffer items, spare, codes, boxes;
+
+  [[nodiscard]] std::size_t bytes() const noexcept { return bytes_of(items, spare, codes, boxes); }
 };
 
 /// Room for the items of so many bodies; null when there is none.

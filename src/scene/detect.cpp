@@ -4,6 +4,7 @@
 #include <new>
 
 #include "base/float_environment.hpp"
+#include "base/out_of_memory.hpp"
 #include "scene/check.hpp"
 #include "scene/output.hpp"
 
@@ -133,7 +134,7 @@ Result<DetectReport> run(Workspace& workspace, const BodiesOf<Real>& bodies, Out
     if (auto error = detection.run(report)) return *std::move(error);
     return count_only ? report : scene::checked(std::move(report), out.size());
   } catch (const std::bad_alloc&) {
-    return Error{Errc::out_of_memory, "out of memory"};
+    return out_of_memory();
   }
 }
 

@@ -11,6 +11,7 @@
 #include <optional>
 
 #include "base/buffer.hpp"
+#include "base/out_of_memory.hpp"
 #include "broad/order.hpp"
 #include "harpoon/error.hpp"
 
@@ -57,7 +58,7 @@ std::optional<Error> write_in_order(const broad::Means& means, std::uint32_t chu
                                     std::uint64_t& written) {
   const unsigned tasks = means.threads();
   if (!scratch.reserve(tasks * kChunkRecords * sizeof(Record))) {
-    return Error{Errc::out_of_memory, "out of memory"};
+    return out_of_memory();
   }
   ChunkTurns turns;
   auto error = means.run(tasks, [&](std::size_t task) {

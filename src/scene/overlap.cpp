@@ -4,6 +4,7 @@
 #include <new>
 
 #include "base/float_environment.hpp"
+#include "base/out_of_memory.hpp"
 #include "broad/boxes.hpp"
 #include "scene/check.hpp"
 #include "scene/output.hpp"
@@ -87,7 +88,7 @@ Result<DetectReport> run(Workspace& workspace, const BoundsOf<Real>& boxes,
     if (auto error = overlaps.run()) return *std::move(error);
     return scene::checked(std::move(report), out.size());
   } catch (const std::bad_alloc&) {
-    return Error{Errc::out_of_memory, "out of memory"};
+    return out_of_memory();
   }
 }
 

@@ -14,6 +14,7 @@
 #include <fmt/format.h>
 
 #include "base/float_environment.hpp"
+#include "base/out_of_memory.hpp"
 #include "scene/check.hpp"
 #include "scene/ordered_writer.hpp"
 #include "scene/workspace.hpp"
@@ -39,9 +40,6 @@ constexpr std::size_t kCompareBlock = std::size_t{64} << 10;
 
 Error no_such_body() {
   return {Errc::invalid_index, "no such body"};
-}
-Error out_of_memory() {
-  return {Errc::out_of_memory, "out of memory"};
 }
 Error too_many_contacts(std::uint64_t contacts, std::uint64_t limit) {
   return {

@@ -14,9 +14,8 @@
 ///
 /// Bodies with a coordinate or radius that is not finite, a coordinate beyond +-`kSceneLimit`, or a
 /// radius below 0 or beyond `kSceneLimit` take part in nothing and are reported by id; everything
-/// else stays exact. Radius 0 is legal. Cost grows as n log n + contacts but for the worlds that
-/// docs/scene.md names ("Where it is not"), memory with bodies and contacts, never with the volume
-/// of the world.
+/// else stays exact. Radius 0 is legal. Cost grows as n log n + contacts whatever the extent of the
+/// world and the sizes in it, memory with bodies and contacts.
 
 #include <cstddef>
 #include <cstdint>
@@ -206,9 +205,10 @@ HARPOON_API Result<DetectReport> count_contacts(Workspace& workspace,
 
 /// All pairs g1 < g2 of boxes that overlap and pass the filters, written to the front of `out`;
 /// exact in both precisions. Boxes with a NaN or a min beyond its max take part in nothing and are
-/// listed in `excluded`. `contacts` of the report is the number of pairs. A few boxes that are
-/// infinite or huge beside the rest cost one pass over all others each; where most boxes are so
-/// along the same one or two axes, they are told apart by the others. Errors as `detect`.
+/// listed in `excluded`. `contacts` of the report is the number of pairs. Boxes that are infinite
+/// or huge beside the rest cost what they overlap; where most are so along the same one or two
+/// axes, they are told apart by the others. Boxes with sides that differ more than about a
+/// hundredfold, in several directions, cost more (docs/scene.md). Errors as `detect`.
 HARPOON_API Result<DetectReport> overlap_pairs(Workspace& workspace, const Bounds& boxes,
                                                std::span<IndexPair> out,
                                                ContactOrder order = ContactOrder::space) noexcept;
@@ -224,6 +224,15 @@ struct BodyRules {
   Rest rest = Rest::awake;
 };
 
+/// Contacts that a frame of a scene of so many bodies may have where the client sets no limit. A
+/// scene keeps them in its own memory, and bodies that coincide have half the square of their
+/// number.
+constexpr std::uint64_t default_contact_limit(std::uint64_t bodies) noexcept {
+  constexpr std::uint64_t kAtLeast = std::uint64_t{1} << 24;
+  constexpr std::uint64_t kPerBody = 64;
+  return bodies > kAtLeast / kPerBody ? kPerBody * bodies : kAtLeast;
+}
+
 /// One frame of a scene.
 template <class Real>
 struct FrameOf {
@@ -231,8 +240,9 @@ struct FrameOf {
   std::span<const BodyContactOf<Real>> contacts;
   /// Ids of invalid bodies, ascending. Valid as long.
   std::span<const std::uint32_t> excluded;
-  bool changed = true;    ///< false: nothing moved, these are the contacts of the last frame
-  bool searched = false;  ///< true: nearby pairs were searched anew
+  bool changed = true;      ///< false: nothing moved, these are the contacts of the last frame
+  bool searched = false;    ///< true: nearby pairs were searched anew
+  std::uint64_t tests = 0;  ///< pairs whose distance was looked at
 };
 
 /// Bodies that persist. Contacts are those of `detect` on the bodies as they are, in order of ids,
@@ -270,8 +280,12 @@ class HARPOON_API SceneOf {
   /// Bodies in the scene.
   [[nodiscard]] std::size_t size() const noexcept;
 
-  /// All contacts of the bodies as they are now. Errors: out_of_memory, executor_failed,
-  /// batch_too_large (more than 2^32 - 1 nearby pairs).
+  /// Sets the most contacts that a frame may have, in place of `default_contact_limit`.
+  void limit_contacts(std::uint64_t most) noexcept;
+
+  /// All contacts of the bodies as they are now. Errors: capacity (more than the limit; `needed` is
+  /// their exact number), out_of_memory, executor_failed, batch_too_large (more than 2^32 - 1
+  /// nearby pairs).
   Result<FrameOf<Real>> detect() noexcept;
 
   struct State;

@@ -4,18 +4,19 @@
 #include <new>
 
 #include "base/float_environment.hpp"
+#include "base/out_of_memory.hpp"
 #include "scene/check.hpp"
 #include "scene/output.hpp"
 
 namespace harpoon {
 namespace {
 
-using scene::Candidates;
+using broad::Candidates;
 
 /// Where a sink gets its bodies from, in sorted order.
 template <class Real>
 struct Sorted {
-  const scene::Kernels<Real>& kernels;
+  const broad::Kernels<Real>& kernels;
   const SphereOf<Real>* spheres;
   const std::uint32_t* ids;
 };
@@ -69,32 +70,53 @@ class Detection {
 
   std::optional<Error> run(DetectReport& report) {
     if (source_.count == 0) return std::nullopt;
-    scene::Survey<Real> survey;
-    if (auto error = scene::survey(means_, source_, 0, report.excluded, survey)) return error;
-    if (survey.census.bodies == 0) return std::nullopt;
-    const scene::Plan plan = scene::make_plan(survey.census);
+    broad::Survey<Real> survey;
+    if (auto error = broad::survey(means_, source_, 0, report.excluded, survey)) return error;
+    if (survey.census.bodies + survey.giants.size() == 0) return std::nullopt;
+    const broad::Plan plan = broad::make_plan(survey.census);
     report.times.survey_ns = watch_.lap_ns();
-    return plan.cull_double ? run_planned<double>(survey, plan, report)
-                            : run_planned<float>(survey, plan, report);
+    if (plan.in_trees) return run_in_trees(report);
+    if (auto error = plan.cull_double ? run_in_grids<double>(survey, plan, report)
+                                      : run_in_grids<float>(survey, plan, report)) {
+      return error;
+    }
+    return state_.search.gave_up ? run_in_trees(report) : std::nullopt;
   }
 
  private:
   template <class Cull>
-  std::optional<Error> run_planned(const scene::Survey<Real>& survey, const scene::Plan& plan,
-                                   DetectReport& report) {
-    scene::Ordered<Real, Cull> bodies;
-    if (auto error = scene::order(means_, source_, survey, plan, state_.order, bodies)) {
+  std::optional<Error> run_in_grids(const broad::Survey<Real>& survey, const broad::Plan& plan,
+                                    DetectReport& report) {
+    broad::Ordered<Real, Cull> bodies;
+    bodies.scanned = survey.giants.size();
+    if (auto error = broad::order(means_, source_, survey, plan, state_.order, bodies)) {
       return error;
     }
-    report.times.order_ns = watch_.lap_ns();
+    broad::place_giants(means_, source_, survey, plan, state_.order, bodies);
+    return find_and_write(bodies, report);
+  }
+
+  std::optional<Error> run_in_trees(DetectReport& report) {
+    broad::Ordered<Real, Real> bodies;
+    if (auto error =
+            broad::order_in_trees(means_, source_, 0, state_.order, state_.trees, bodies)) {
+      return error;
+    }
+    return find_and_write(bodies, report);
+  }
+
+  template <class Cull>
+  std::optional<Error> find_and_write(const broad::Ordered<Real, Cull>& bodies,
+                                      DetectReport& report) {
+    report.times.order_ns += watch_.lap_ns();
     const Sorted<Real> from{means_.kernels->of<Real>(), bodies.spheres, bodies.ids};
     return scene::find_and_write(state_, means_, bodies, {}, filters_, sink_of(from, out_), order_,
                                  source_.count, watch_, report);
   }
 
   Workspace::State& state_;
-  scene::Means means_;
-  scene::Source<Real> source_;
+  broad::Means means_;
+  broad::Source<Real> source_;
   Filters filters_;
   Output out_;
   ContactOrder order_;
@@ -112,7 +134,7 @@ Result<DetectReport> run(Workspace& workspace, const BodiesOf<Real>& bodies, Out
     if (auto error = detection.run(report)) return *std::move(error);
     return count_only ? report : scene::checked(std::move(report), out.size());
   } catch (const std::bad_alloc&) {
-    return Error{Errc::out_of_memory, "out of memory"};
+    return out_of_memory();
   }
 }
 

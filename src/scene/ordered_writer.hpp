@@ -10,9 +10,10 @@
 #include <cstring>
 #include <optional>
 
+#include "base/buffer.hpp"
+#include "base/out_of_memory.hpp"
+#include "broad/order.hpp"
 #include "harpoon/error.hpp"
-#include "scene/buffer.hpp"
-#include "scene/order.hpp"
 
 namespace harpoon::scene {
 
@@ -52,11 +53,12 @@ class ChunkTurns {
 /// when all before it have been, so nothing waits for what has not started, whatever runs the
 /// tasks.
 template <class Record, class Make>
-std::optional<Error> write_in_order(const Means& means, std::uint32_t chunks, Buffer& scratch,
-                                    Record* out, const Make& make, std::uint64_t& written) {
+std::optional<Error> write_in_order(const broad::Means& means, std::uint32_t chunks,
+                                    Buffer& scratch, Record* out, const Make& make,
+                                    std::uint64_t& written) {
   const unsigned tasks = means.threads();
   if (!scratch.reserve(tasks * kChunkRecords * sizeof(Record))) {
-    return Error{Errc::out_of_memory, "out of memory"};
+    return out_of_memory();
   }
   ChunkTurns turns;
   auto error = means.run(tasks, [&](std::size_t task) {

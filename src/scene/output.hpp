@@ -14,8 +14,8 @@
 #include <span>
 #include <vector>
 
+#include "broad/id_order.hpp"
 #include "harpoon/scene.hpp"
-#include "scene/id_order.hpp"
 #include "scene/workspace.hpp"
 
 namespace harpoon::scene {
@@ -39,7 +39,7 @@ struct PairSink {
   std::span<IndexPair> out;
 
   [[nodiscard]] std::uint64_t capacity() const noexcept { return out.size(); }
-  void write(const Candidates& list, std::size_t begin, std::size_t end,
+  void write(const broad::Candidates& list, std::size_t begin, std::size_t end,
              std::size_t at) const noexcept {
     for (std::size_t p = begin; p < end; ++p) {
       const std::uint32_t a = ids[list.i[p]];
@@ -54,10 +54,11 @@ inline constexpr std::size_t kPieceRecords = 2048;
 
 /// Writes the lists one after the other; `written` becomes the number of records.
 template <class Sink>
-std::optional<Error> write_lists(const Means& means, std::span<const Candidates> lists,
-                                 const Sink& sink, std::uint64_t& written) {
+std::optional<Error> write_lists(const broad::Means& means,
+                                 std::span<const broad::Candidates> lists, const Sink& sink,
+                                 std::uint64_t& written) {
   std::vector<std::size_t> starts = {0};
-  for (const Candidates& list : lists) starts.push_back(starts.back() + list.count);
+  for (const broad::Candidates& list : lists) starts.push_back(starts.back() + list.count);
   written = starts.back();
   const auto write = [&](std::size_t, std::size_t begin, std::size_t end) {
     for (std::size_t l = 0; begin < end; ++l) {
@@ -71,33 +72,33 @@ std::optional<Error> write_lists(const Means& means, std::span<const Candidates>
 }
 
 /// Searches the ordered bodies and writes what is found, unless it does not fit: then
-/// `report.contacts` is the number needed. Ids are below `id_count`.
+/// `report.contacts` is the number needed. Ids are below `id_count`. Nothing is written where the
+/// search gives up, which `state.search` says.
 template <class Real, class Cull, class Sink>
-std::optional<Error> find_and_write(Workspace::State& state, const Means& means,
-                                    const Ordered<Real, Cull>& bodies, const SearchRule& rule,
-                                    const Filters& filters, const Sink& sink, ContactOrder order,
-                                    std::size_t id_count, StopWatch& watch, DetectReport& report) {
-  const PairFilter filter(filters);
-  if (auto error = search(means, bodies, rule, filter, sink.capacity(), state.search)) {
+std::optional<Error> find_and_write(Workspace::State& state, const broad::Means& means,
+                                    const broad::Ordered<Real, Cull>& bodies,
+                                    const broad::SearchRule& rule, const Filters& filters,
+                                    const Sink& sink, ContactOrder order, std::size_t id_count,
+                                    StopWatch& watch, DetectReport& report) {
+  const broad::PairFilter filter(filters);
+  if (auto error = broad::search(means, bodies, rule, filter, sink.capacity(), state.search)) {
     return error;
   }
-  const std::span<TaskList> lists(state.search.lists.data(), state.search.used);
-  std::uint64_t dropped = 0;
-  for (const TaskList& task : lists) {
-    report.tests += task.tests;
-    dropped += task.dropped;
-  }
-  report.times.search_ns = watch.lap_ns();
-  if (dropped != 0) {
+  report.tests += state.search.tests();
+  report.times.search_ns += watch.lap_ns();
+  if (state.search.gave_up) return std::nullopt;
+  const std::span<broad::TaskList> lists(state.search.lists.data(), state.search.used);
+  if (const std::uint64_t dropped = state.search.dropped(); dropped != 0) {
     report.contacts = dropped;
     return std::nullopt;
   }
-  std::vector<Candidates> ordered;
+  std::vector<broad::Candidates> ordered;
   if (order == ContactOrder::space) {
-    for (const TaskList& task : lists) ordered.push_back(task.list);
+    for (const broad::TaskList& task : lists) ordered.push_back(task.list);
   } else {
     ordered.emplace_back();
-    if (auto error = order_by_ids(means, bodies.ids, id_count, lists, state.by_id, ordered[0])) {
+    if (auto error =
+            broad::order_by_ids(means, bodies.ids, id_count, lists, state.by_id, ordered[0])) {
       return error;
     }
   }

@@ -11,7 +11,10 @@
 #include <limits>
 #include <new>
 
+#include <fmt/format.h>
+
 #include "base/float_environment.hpp"
+#include "base/out_of_memory.hpp"
 #include "scene/check.hpp"
 #include "scene/ordered_writer.hpp"
 #include "scene/workspace.hpp"
@@ -21,7 +24,7 @@ namespace {
 
 /// Frames that a list should last at the speed seen.
 constexpr double kFramesPerSearch = 8;
-/// A margin beyond this part of the largest radius makes the list longer than it is worth.
+/// A margin beyond this part of a usual large radius makes the list longer than it is worth.
 constexpr double kLargestMargin = 0.5;
 /// So does one that lists more pairs than these, as where all but a few bodies are small.
 constexpr std::uint64_t kListPerBody = 8, kListPerContact = 4;
@@ -38,8 +41,11 @@ constexpr std::size_t kCompareBlock = std::size_t{64} << 10;
 Error no_such_body() {
   return {Errc::invalid_index, "no such body"};
 }
-Error out_of_memory() {
-  return {Errc::out_of_memory, "out of memory"};
+Error too_many_contacts(std::uint64_t contacts, std::uint64_t limit) {
+  return {
+      Errc::capacity,
+      fmt::format("{} contacts and a limit of {}; limit_contacts() sets another", contacts, limit),
+      contacts};
 }
 
 }  // namespace
@@ -48,7 +54,7 @@ template <class Real>
 struct SceneOf<Real>::State {
   explicit State(Workspace made) noexcept : workspace(std::move(made)) {}
 
-  using Spheres = std::vector<SphereOf<Real>, scene::LargeAllocator<SphereOf<Real>>>;
+  using Spheres = std::vector<SphereOf<Real>, LargeAllocator<SphereOf<Real>>>;
 
   Workspace workspace;
   Spheres spheres;   ///< by id; a free id has radius -1
@@ -58,10 +64,12 @@ struct SceneOf<Real>::State {
   std::vector<bool> taken;
   std::vector<std::uint32_t> free_ids;  ///< a heap, lowest first
   std::vector<std::uint32_t> excluded;
-  scene::IdOrderMemory nearby_memory;
-  scene::Buffer contacts;
-  scene::Candidates nearby;
+  broad::IdOrderMemory nearby_memory;
+  Buffer contacts;
+  broad::Candidates nearby;
   std::uint64_t contact_count = 0;
+  std::uint64_t tests = 0;  ///< of the last frame
+  std::optional<std::uint64_t> contact_limit;
   double margin = 0;
   /// Whose list was not too long.
   double largest_margin = std::numeric_limits<double>::infinity();
@@ -101,11 +109,15 @@ struct SceneOf<Real>::State {
     stale = moved = true;
   }
 
-  [[nodiscard]] scene::Means means() const noexcept {
+  [[nodiscard]] std::uint64_t most_contacts() const noexcept {
+    return contact_limit.value_or(default_contact_limit(spheres.size()));
+  }
+
+  [[nodiscard]] broad::Means means() const noexcept {
     return workspace.state().means(spheres.size());
   }
   [[nodiscard]] Filters filters() const noexcept { return {category, collide, owner, rest}; }
-  [[nodiscard]] scene::Source<Real> source() const noexcept {
+  [[nodiscard]] broad::Source<Real> source() const noexcept {
     if (spheres.empty()) return {};
     const SphereOf<Real>* s = spheres.data();
     return {&s->x, &s->y, &s->z, &s->r, sizeof *s, spheres.size()};
@@ -118,7 +130,7 @@ template <class Real>
 using StateOf = typename SceneOf<Real>::State;
 
 template <class Real>
-scene::Source<Real> source_of(const BodiesOf<Real>& b) {
+broad::Source<Real> source_of(const BodiesOf<Real>& b) {
   return {b.x, b.y, b.z, b.r, b.stride_bytes, b.count};
 }
 
@@ -129,7 +141,7 @@ bool same_bits(const void* a, const SphereOf<Real>* b, std::size_t spheres) {
 }
 
 template <class Real>
-bool same_bits(const scene::Source<Real>& source, const SphereOf<Real>* spheres, std::size_t begin,
+bool same_bits(const broad::Source<Real>& source, const SphereOf<Real>* spheres, std::size_t begin,
                std::size_t end) {
   if (source.records()) return same_bits(source.x + 4 * begin, spheres + begin, end - begin);
   for (std::size_t i = begin; i < end; ++i) {
@@ -141,7 +153,7 @@ bool same_bits(const scene::Source<Real>& source, const SphereOf<Real>* spheres,
 
 /// True when the source holds exactly the scene's spheres, bit by bit.
 template <class Real>
-Result<bool> same_spheres(const StateOf<Real>& state, const scene::Source<Real>& source) {
+Result<bool> same_spheres(const StateOf<Real>& state, const broad::Source<Real>& source) {
   constexpr std::size_t kBlock = kCompareBlock / sizeof(SphereOf<Real>);
   std::atomic<bool> same{true};
   const auto compare = [&](std::size_t, std::size_t begin, std::size_t end) {
@@ -159,7 +171,7 @@ Result<bool> same_spheres(const StateOf<Real>& state, const scene::Source<Real>&
 
 /// Copies the source's bodies to `spheres`.
 template <class Real>
-std::optional<Error> copy_spheres(const scene::Means& means, const scene::Source<Real>& source,
+std::optional<Error> copy_spheres(const broad::Means& means, const broad::Source<Real>& source,
                                   typename StateOf<Real>::Spheres& spheres) {
   spheres.resize(source.count);
   SphereOf<Real>* const to = spheres.data();
@@ -204,8 +216,8 @@ void copy_rules(const Filters& f, State& state) {
   std::copy(f.rest.begin(), f.rest.end(), state.rest.begin());
 }
 
-/// One search: makes `nearby` from the bodies as they are; without a margin where with the one
-/// asked for there were too many.
+/// One search: makes `nearby` from the bodies as they are; without a margin, of contacts alone,
+/// where with the one asked for there were too many.
 template <class Real>
 class Searcher {
  public:
@@ -213,57 +225,89 @@ class Searcher {
       : state_(state), work_(state.workspace.state()), means_(state.means()) {}
 
   std::optional<Error> run() {
-    const std::uint64_t limit =
-        kListPerBody * state_.spheres.size() + kListPerContact * state_.contact_count;
-    if (auto error = run(state_.margin > 0 ? limit : kNoLimit)) return error;
-    if (work_.search.dropped() != 0) {
+    state_.tests = 0;
+    if (state_.margin > 0) {
+      const std::uint64_t limit =
+          kListPerBody * state_.spheres.size() + kListPerContact * state_.contact_count;
+      if (auto error = run({broad::SearchRule::Kind::near_spheres}, limit)) return error;
+      if (work_.search.dropped() == 0) {
+        // A list grows at most with the cube of its reach.
+        if (8 * state_.nearby.count < limit) state_.largest_margin *= 2;
+        return std::nullopt;
+      }
       state_.largest_margin = state_.margin / 2;
       state_.margin = 0;
-      return run(kNoLimit);
+    } else {
+      state_.largest_margin *= kRetryGrowth;  // without a list it is tried again at times
     }
-    // A list grows at most with the cube of its reach. Without a list it is tried again at times.
-    if (8 * state_.nearby.count < limit) {
-      state_.largest_margin *= state_.margin > 0 ? 2 : kRetryGrowth;
-    }
+    const std::uint64_t limit = state_.most_contacts();
+    if (auto error = run({broad::SearchRule::Kind::touching_spheres}, limit)) return error;
+    const std::uint64_t dropped = work_.search.dropped();
+    if (dropped != 0) return too_many_contacts(dropped, limit);
     return std::nullopt;
   }
 
  private:
-  static constexpr std::uint64_t kNoLimit = std::numeric_limits<std::uint64_t>::max();
-
-  std::optional<Error> run(std::uint64_t limit) {
+  std::optional<Error> run(const broad::SearchRule& rule, std::uint64_t limit) {
+    rule_ = rule;
     work_.search.used = 0;
     state_.excluded.clear();
     state_.nearby.count = 0;
     if (state_.spheres.empty()) return std::nullopt;
-    const scene::Source<Real> source = state_.source();
-    scene::Survey<Real> survey;
-    if (auto error = scene::survey(means_, source, state_.margin, state_.excluded, survey)) {
+    const broad::Source<Real> source = state_.source();
+    broad::Survey<Real> survey;
+    if (auto error = broad::survey(means_, source, state_.margin, state_.excluded, survey)) {
       return error;
     }
     std::erase_if(state_.excluded, [&](std::uint32_t id) { return !state_.taken[id]; });
-    if (survey.census.bodies == 0) return std::nullopt;
-    const scene::Plan plan = scene::make_plan(survey.census);
-    return plan.cull_double ? search<double>(source, survey, plan, limit)
-                            : search<float>(source, survey, plan, limit);
+    if (survey.census.bodies + survey.giants.size() == 0) return std::nullopt;
+    const broad::Plan plan = broad::make_plan(survey.census);
+    if (plan.in_trees) return search_trees(source, limit);
+    if (auto error = plan.cull_double ? search_grids<double>(source, survey, plan, limit)
+                                      : search_grids<float>(source, survey, plan, limit)) {
+      return error;
+    }
+    return work_.search.gave_up ? search_trees(source, limit) : std::nullopt;
   }
 
   template <class Cull>
-  std::optional<Error> search(const scene::Source<Real>& source, const scene::Survey<Real>& survey,
-                              const scene::Plan& plan, std::uint64_t limit) {
-    scene::Ordered<Real, Cull> bodies;
-    if (auto error = scene::order(means_, source, survey, plan, work_.order, bodies)) return error;
-    const scene::PairFilter filter(state_.filters());
-    const scene::SearchRule rule{scene::SearchRule::Kind::near_spheres};
-    if (auto error = scene::search(means_, bodies, rule, filter, limit, work_.search)) return error;
-    const std::span<const scene::TaskList> lists(work_.search.lists.data(), work_.search.used);
-    return scene::ids_in_order(means_, bodies.ids, source.count, lists, state_.nearby_memory,
+  std::optional<Error> search_grids(const broad::Source<Real>& source,
+                                    const broad::Survey<Real>& survey, const broad::Plan& plan,
+                                    std::uint64_t limit) {
+    broad::Ordered<Real, Cull> bodies;
+    bodies.scanned = survey.giants.size();
+    if (auto error = broad::order(means_, source, survey, plan, work_.order, bodies)) return error;
+    broad::place_giants(means_, source, survey, plan, work_.order, bodies);
+    return search(source, bodies, limit);
+  }
+
+  std::optional<Error> search_trees(const broad::Source<Real>& source, std::uint64_t limit) {
+    broad::Ordered<Real, Real> bodies;
+    if (auto error = broad::order_in_trees(means_, source, state_.margin, work_.order, work_.trees,
+                                           bodies)) {
+      return error;
+    }
+    return search(source, bodies, limit);
+  }
+
+  template <class Cull>
+  std::optional<Error> search(const broad::Source<Real>& source,
+                              const broad::Ordered<Real, Cull>& bodies, std::uint64_t limit) {
+    const broad::PairFilter filter(state_.filters());
+    if (auto error = broad::search(means_, bodies, rule_, filter, limit, work_.search)) {
+      return error;
+    }
+    state_.tests += work_.search.tests();
+    if (work_.search.gave_up) return std::nullopt;
+    const std::span<const broad::TaskList> lists(work_.search.lists.data(), work_.search.used);
+    return broad::ids_in_order(means_, bodies.ids, source.count, lists, state_.nearby_memory,
                                state_.nearby);
   }
 
   StateOf<Real>& state_;
   Workspace::State& work_;
-  scene::Means means_;
+  broad::Means means_;
+  broad::SearchRule rule_;
 };
 
 /// Contacts of the nearby pairs, in their order.
@@ -272,7 +316,7 @@ std::optional<Error> collide_nearby(StateOf<Real>& state) {
   const std::size_t pairs = state.nearby.count;
   if (!state.contacts.reserve((pairs + 1) * sizeof(BodyContactOf<Real>))) return out_of_memory();
   auto* const out = state.contacts.template as<BodyContactOf<Real>>();
-  const scene::Means means = state.means();
+  const broad::Means means = state.means();
   const auto make = [&](std::size_t begin, std::size_t end, BodyContactOf<Real>* to) {
     return means.kernels->of<Real>().contacts(state.spheres.data(), nullptr, state.nearby, begin,
                                               end, to);
@@ -295,8 +339,8 @@ std::optional<Error> collide_nearby(StateOf<Real>& state) {
 /// known.
 template <class Real>
 Result<double> largest_move(const StateOf<Real>& state) {
-  const scene::Means means = state.means();
-  std::array<Real, scene::Means::kMaxPieces> squares = {};
+  const broad::Means means = state.means();
+  std::array<Real, broad::Means::kMaxPieces> squares = {};
   if (auto error = means.run_pieces(state.spheres.size(), kPieceBodies,
                                     [&](std::size_t piece, std::size_t begin, std::size_t end) {
                                       squares[piece] = means.kernels->of<Real>().largest_move(
@@ -313,10 +357,7 @@ Result<double> largest_move(const StateOf<Real>& state) {
 template <class Real>
 double choose_margin(const StateOf<Real>& state, double moved) {
   if (state.frames < 2) return 0;
-  const scene::Kernels<Real>& kernels = state.means().kernels->template of<Real>();
-  const scene::Source<Real> source = state.source();
-  const double radius =
-      std::max(0.0, static_cast<double>(kernels.extremes(source, 0, source.count).max[3]));
+  const double radius = broad::usual_radius(state.source());
   const double speed = moved / (state.frames - 1);
   const double largest = std::min(kLargestMargin * radius, state.largest_margin);
   if (!(2 * speed <= largest * kUsableMargin)) return 0;
@@ -375,7 +416,7 @@ std::optional<Error> SceneOf<Real>::set_bodies(const BodiesOf<Real>& bodies) noe
     if (auto error = scene::check(bodies)) return error;
     const bool same_set = bodies.count == s.spheres.size() && s.free_ids.empty();
     const bool rules_kept = same_set && same_rules(bodies.filters, s);
-    const scene::Source<Real> source = source_of(bodies);
+    const broad::Source<Real> source = source_of(bodies);
     if (rules_kept) {
       const Result<bool> same = same_spheres<Real>(s, source);
       if (!same) return same.error();
@@ -384,7 +425,7 @@ std::optional<Error> SceneOf<Real>::set_bodies(const BodiesOf<Real>& bodies) noe
     s.moved = true;
     if (!rules_kept) s.stale = true;
     if (!same_set) s.frames = 0;
-    const scene::Means means = s.workspace.state().means(bodies.count);
+    const broad::Means means = s.workspace.state().means(bodies.count);
     if (auto error = copy_spheres<Real>(means, source, s.spheres)) {
       s.clear();
       return error;
@@ -484,6 +525,12 @@ std::size_t SceneOf<Real>::size() const noexcept {
 }
 
 template <class Real>
+void SceneOf<Real>::limit_contacts(std::uint64_t most) noexcept {
+  state_->contact_limit = most;
+  state_->moved = true;
+}
+
+template <class Real>
 Result<FrameOf<Real>> SceneOf<Real>::detect() noexcept {
   State& s = *state_;
   FrameOf<Real> frame;
@@ -495,7 +542,11 @@ Result<FrameOf<Real>> SceneOf<Real>::detect() noexcept {
       const Result<bool> searched = keep_nearby<Real>(s);
       if (!searched) return searched.error();
       frame.searched = *searched;
+      if (!frame.searched) s.tests = s.nearby.count;
       if (auto error = collide_nearby<Real>(s)) return *std::move(error);
+      if (s.contact_count > s.most_contacts()) {
+        return too_many_contacts(s.contact_count, s.most_contacts());
+      }
       s.moved = false;
     } catch (const std::bad_alloc&) {
       s.stale = true;
@@ -504,6 +555,7 @@ Result<FrameOf<Real>> SceneOf<Real>::detect() noexcept {
   }
   frame.contacts = {s.contacts.template as<BodyContactOf<Real>>(), s.contact_count};
   frame.excluded = s.excluded;
+  frame.tests = frame.changed ? s.tests : 0;
   return frame;
 }
 

@@ -3,9 +3,10 @@
 #include <fmt/format.h>
 
 #include <algorithm>
-#include <initializer_list>
 #include <new>
 #include <thread>
+
+#include "base/out_of_memory.hpp"
 
 namespace harpoon {
 namespace {
@@ -23,7 +24,7 @@ Result<Workspace> Workspace::make(const WorkspaceOptions& options) noexcept {
                                                        options.threads, kMaxThreads)};
     }
     auto state = std::make_unique<State>();
-    state->kernels = scene::find_kernels(options.instruction_set);
+    state->kernels = broad::find_kernels(options.instruction_set);
     if (state->kernels == nullptr) {
       return Error{Errc::invalid_argument,
                    fmt::format("instruction set \"{}\" is not to be had here; "
@@ -37,7 +38,7 @@ Result<Workspace> Workspace::make(const WorkspaceOptions& options) noexcept {
     }
     return Workspace(std::move(state));
   } catch (const std::bad_alloc&) {
-    return Error{Errc::out_of_memory, "out of memory"};
+    return out_of_memory();
   }
 }
 
@@ -47,31 +48,12 @@ Workspace& Workspace::operator=(Workspace&& other) noexcept = default;
 Workspace::~Workspace() = default;
 
 std::size_t Workspace::bytes() const noexcept {
-  const scene::OrderMemory& o = state_->order;
-  std::size_t sum = 0;
-  const std::initializer_list<const scene::Buffer*> buffers = {&o.staged,
-                                                               &o.staged_ids,
-                                                               &o.parted,
-                                                               &o.parted_ids,
-                                                               &o.parted_buckets,
-                                                               &o.buckets,
-                                                               &o.tables,
-                                                               &o.counts,
-                                                               &o.sorted,
-                                                               &o.ids,
-                                                               &o.cull,
-                                                               &state_->boxes.corners,
-                                                               &state_->boxes.high,
-                                                               &state_->boxes.low,
-                                                               &state_->scratch};
-  for (const scene::Buffer* buffer : buffers) sum += buffer->bytes();
-  sum += state_->by_id.bytes();
-  for (const scene::TaskList& list : state_->search.lists) sum += list.memory.bytes();
-  return sum;
+  const State& s = *state_;
+  return bytes_of(s.order, s.trees, s.boxes, s.search, s.by_id, s.scratch);
 }
 
-scene::Means Workspace::State::means(std::size_t bodies) const noexcept {
-  return {bodies < kParallelBodies ? nullptr : executor.get(), kernels};
+broad::Means Workspace::State::means(std::size_t bodies) const noexcept {
+  return {{bodies < kParallelBodies ? nullptr : executor.get()}, kernels};
 }
 
 }  // namespace harpoon

@@ -5,24 +5,26 @@
 #include <memory>
 
 #include "base/executor.hpp"
+#include "broad/boxes.hpp"
+#include "broad/id_order.hpp"
+#include "broad/order.hpp"
+#include "broad/search.hpp"
+#include "broad/tree.hpp"
 #include "harpoon/scene.hpp"
-#include "scene/boxes.hpp"
-#include "scene/id_order.hpp"
-#include "scene/order.hpp"
-#include "scene/search.hpp"
 
 namespace harpoon {
 
 struct Workspace::State {
-  const scene::KernelTable* kernels = nullptr;
+  const broad::KernelTable* kernels = nullptr;
   std::unique_ptr<Executor> executor;  ///< null for one thread
-  scene::OrderMemory order;
-  scene::BoxMemory boxes;
-  scene::SearchMemory search;
-  scene::IdOrderMemory by_id;
-  scene::Buffer scratch;  ///< of the writers of output
+  broad::OrderMemory order;
+  broad::TreeMemory trees;
+  broad::BoxMemory boxes;
+  broad::SearchMemory search;
+  broad::IdOrderMemory by_id;
+  Buffer scratch;  ///< of the writers of output
 
-  [[nodiscard]] scene::Means means(std::size_t bodies) const noexcept;
+  [[nodiscard]] broad::Means means(std::size_t bodies) const noexcept;
 };
 
 }  // namespace harpoon

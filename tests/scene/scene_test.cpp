@@ -214,6 +214,43 @@ TYPED_TEST(SceneTest, InvalidBodiesAreNamedAndFreeIdsAreNot) {
   EXPECT_EQ(scene.remove(9)->code, Errc::invalid_index);
 }
 
+TYPED_TEST(SceneTest, MoreContactsThanTheLimitAreCountedAndNotKept) {
+  using Real = TypeParam;
+  constexpr std::uint64_t kCoincident = 700;
+  constexpr std::uint64_t kContacts = kCoincident * (kCoincident - 1) / 2;
+  std::vector<SphereOf<Real>> spheres(kCoincident, {1, 2, 3, Real(0.5)});
+  for (const unsigned threads : {1U, 2U}) {
+    auto scene = this->scene(threads);
+    for (int frame = 0; frame < 4; ++frame) {  // with and without a list of nearby pairs
+      ASSERT_FALSE(scene.set_bodies(BodiesOf<Real>(this->view(spheres))));
+      scene.limit_contacts(kContacts - 1);
+      for (int again = 0; again < 2; ++again) {
+        const auto refused = scene.detect();
+        ASSERT_FALSE(refused.ok());
+        EXPECT_EQ(refused.error().code, Errc::capacity);
+        EXPECT_EQ(refused.error().needed, kContacts);
+      }
+      scene.limit_contacts(kContacts);
+      EXPECT_EQ(scene.detect()->contacts.size(), kContacts) << frame;
+      for (auto& s : spheres) s.x += Real(0.001);
+    }
+  }
+}
+
+TYPED_TEST(SceneTest, CoincidentBodiesDoNotRunAway) {
+  using Real = TypeParam;
+  EXPECT_EQ(default_contact_limit(0), 1U << 24);
+  EXPECT_EQ(default_contact_limit(1U << 20), 1U << 26);
+  constexpr std::uint64_t kCoincident = 6000;  // 18 million contacts
+  auto scene = this->scene();
+  const std::vector<SphereOf<Real>> spheres(kCoincident, {1, 2, 3, Real(0.5)});
+  ASSERT_FALSE(scene.set_bodies(BodiesOf<Real>(this->view(spheres))));
+  const auto refused = scene.detect();
+  ASSERT_FALSE(refused.ok());
+  EXPECT_EQ(refused.error().code, Errc::capacity);
+  EXPECT_EQ(refused.error().needed, kCoincident * (kCoincident - 1) / 2);
+}
+
 TYPED_TEST(SceneTest, EmptyScene) {
   auto scene = this->scene();
   EXPECT_TRUE(scene.detect()->contacts.empty());

@@ -9,6 +9,7 @@
 
 #include "base/executor.hpp"
 #include "base/float_environment.hpp"
+#include "base/out_of_memory.hpp"
 #include "device/cpu/indexed_batch.hpp"
 #include "device/cpu/kernels.hpp"
 #include "device/validate.hpp"
@@ -53,7 +54,7 @@ class CpuDevice final : public Device {
       if (auto error = validate(batch)) return *std::move(error);
       return std::visit([this](const auto& b) { return run_batch(b); }, batch);
     } catch (const std::bad_alloc&) {
-      return Error{Errc::out_of_memory, "out of memory"};
+      return out_of_memory();
     }
   }
 
@@ -124,7 +125,7 @@ Result<std::unique_ptr<Device>> make_cpu_device(const CpuOptions& options) noexc
     }
     return std::unique_ptr<Device>(std::make_unique<CpuDevice>(options, *kernels));
   } catch (const std::bad_alloc&) {
-    return Error{Errc::out_of_memory, "out of memory"};
+    return out_of_memory();
   }
 }
 

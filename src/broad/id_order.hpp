@@ -8,11 +8,11 @@
 #include <optional>
 #include <span>
 
+#include "base/buffer.hpp"
+#include "broad/search.hpp"
 #include "harpoon/error.hpp"
-#include "scene/buffer.hpp"
-#include "scene/search.hpp"
 
-namespace harpoon::scene {
+namespace harpoon::broad {
 
 /// What an ordering needs, and the memory of its result.
 struct IdOrderMemory {
@@ -20,7 +20,7 @@ struct IdOrderMemory {
   Buffer parted, ordered, starts, counts;
 
   [[nodiscard]] std::size_t bytes() const noexcept {
-    return list.bytes() + parted.bytes() + ordered.bytes() + starts.bytes() + counts.bytes();
+    return bytes_of(list, parted, ordered, starts, counts);
   }
 };
 
@@ -35,4 +35,4 @@ std::optional<Error> ids_in_order(const Means& means, const std::uint32_t* ids, 
                                   std::span<const TaskList> lists, IdOrderMemory& memory,
                                   Candidates& out);
 
-}  // namespace harpoon::scene
+}  // namespace harpoon::broad

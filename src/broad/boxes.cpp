@@ -1,4 +1,4 @@
-#include "scene/boxes.hpp"
+#include "broad/boxes.hpp"
 
 #include <algorithm>
 #include <array>
@@ -7,21 +7,20 @@
 #include <limits>
 #include <type_traits>
 
-namespace harpoon::scene {
+#include "base/out_of_memory.hpp"
+
+namespace harpoon::broad {
 namespace {
 
-/// Boxes much larger than the rest or far away from it are taken out of the grid when they are no
-/// more than this: each costs a pass over all others.
+/// Boxes much larger than the rest are taken out of the grid when they are no more than this.
 constexpr std::size_t kFew = 32;
 /// Up to this many boxes none is worth a grid: all pairs, sixteen at a time, are quicker.
 constexpr std::size_t kScanAll = 96;
 /// Times they are looked for anew, the rest having been measured without them.
 constexpr int kFewRounds = 4;
-/// A radius for boxes that are points.
-constexpr double kSmallest = 0x1p-60;
-/// Far away, in radii of the largest box: there a cell number has no room left.
-template <class Cull>
-constexpr double kFarRadii = sizeof(Cull) == sizeof(float) ? 0x1p12 : 0x1p27;
+/// More boxes than this many times the square root of all in no grid are too many, because all
+/// pairs of them are tested.
+constexpr double kScannedOfRoot = 8;
 /// More boxes than this beyond the range of float: cull in double.
 constexpr std::size_t kMaxBeyondFloat = 16;
 /// Boxes whose corners make the middle of the world.
@@ -40,10 +39,6 @@ constexpr double kSidesSearched = 3;
 constexpr double kMaxRelativeLoss = 0.02;
 /// Fewest boxes of a piece of work.
 constexpr std::size_t kPieceBoxes = 8192;
-
-Error out_of_memory() {
-  return {Errc::out_of_memory, "out of memory"};
-}
 
 template <class Real>
 bool proper(const Real* box) noexcept {  // false for NaN
@@ -195,7 +190,14 @@ class BoxSorter {
       return BoxOrder::needs_double;
     }
     if (auto error = take_out_few()) return *std::move(error);
+    const std::vector<std::uint32_t>& giants = survey_.giants;
+    memory_.scanned.insert(memory_.scanned.end(), giants.begin(), giants.end());
+    if (static_cast<double>(memory_.scanned.size()) >
+        kScanAll + kScannedOfRoot * std::sqrt(static_cast<double>(source_.count))) {
+      return BoxOrder::needs_trees;
+    }
     Census& census = survey_.census;
+    census.giants = memory_.scanned.size();
     census.cull_double = std::is_same_v<Cull, double>;
     census.real_digits = std::numeric_limits<Cull>::digits;
     if (census.bodies == 0 && memory_.scanned.empty()) return BoxOrder::nothing;
@@ -204,7 +206,7 @@ class BoxSorter {
       excluded.resize(excluded_before);
       return BoxOrder::needs_double;
     }
-    return sort(plan);
+    return plan.in_trees ? BoxOrder::needs_trees : sort(plan);
   }
 
  private:
@@ -265,7 +267,6 @@ class BoxSorter {
       const std::size_t before = memory_.scanned.size();
       const double largest = largest_of_many();
       scan_if([&](const SphereOf<Cull>& c) { return static_cast<double>(c.r) > largest; });
-      if (largest >= 0) scan_far(std::max(largest, kSmallest) * kFarRadii<Cull>);
       if (memory_.scanned.size() == before) return std::nullopt;
       if (auto error = take_survey()) return error;
     }
@@ -282,30 +283,6 @@ class BoxSorter {
       if (few > kFew) return size.max_radius;
     }
     return -1;
-  }
-
-  /// Boxes further than that from the middle of the world, unless they are many.
-  void scan_far(double distance) {
-    const Census& census = survey_.census;
-    double extent = 0;
-    for (int axis = 0; axis < 3; ++axis) {
-      extent = std::max(extent, census.max[axis] - census.min[axis]);
-    }
-    if (extent <= distance) return;
-    const SphereOf<Cull>* const c = corners();
-    const auto middle = middle_of(source_.count, [&](std::size_t i, std::size_t axis) {
-      const Cull at[3] = {c[i].x, c[i].y, c[i].z};
-      return c[i].r >= 0 ? at[axis] : std::numeric_limits<Cull>::quiet_NaN();
-    });
-    const auto far = [&](const SphereOf<Cull>& s) {
-      const auto beyond = [&](Cull v, std::size_t axis) {
-        return std::abs(static_cast<double>(v) - static_cast<double>(middle[axis])) > distance;
-      };
-      return beyond(s.x, 0) || beyond(s.y, 1) || beyond(s.z, 2);
-    };
-    const auto is_far = [&](const SphereOf<Cull>& s) { return s.r >= 0 && far(s); };
-    const auto count = std::count_if(c, c + source_.count, is_far);
-    if (count <= static_cast<std::ptrdiff_t>(kFew)) scan_if(far);
   }
 
   template <class Rule>
@@ -393,6 +370,23 @@ class BoxSorter {
   Survey<Cull> survey_;
 };
 
+/// A box as the curve meets it; where it is infinite, it sits in the middle of what is finite.
+template <class Real>
+TreeItem<Real> item_of(const Real* box, std::uint32_t id) noexcept {
+  constexpr Real kMost = std::numeric_limits<Real>::max() / 4;
+  TreeItem<Real> item;
+  item.id = id;
+  for (std::size_t axis = 0; axis < 3; ++axis) {
+    const Real low = std::clamp(box[2 * axis], -kMost, kMost);
+    const Real high = std::clamp(box[2 * axis + 1], -kMost, kMost);
+    item.at[axis] = low / 2 + high / 2;
+    // Both ends may be the same infinity.
+    const double side = static_cast<double>(box[2 * axis + 1]) - static_cast<double>(box[2 * axis]);
+    item.side[axis] = side_exponent(side >= 0 ? side : std::numeric_limits<double>::infinity());
+  }
+  return item;
+}
+
 /// Whether two closed boxes overlap, in the caller's own numbers.
 template <class Real, class Cull>
 bool overlap(const BoxJudge& self, std::uint32_t i, std::uint32_t j) {
@@ -414,6 +408,64 @@ Result<BoxOrder> order_boxes(const Means& means, const BoxSource<Real>& source, 
   return BoxSorter<Real, Cull>(means, source, memory, order_memory, out).run(excluded);
 }
 
+template <class Real>
+std::optional<Error> order_boxes_in_trees(const Means& means, const BoxSource<Real>& source,
+                                          BoxMemory& memory, OrderMemory& order_memory,
+                                          TreeMemory& tree_memory, OrderedBoxes<Real, Real>& out) {
+  out.source = source;
+  out.BoxJudge::overlap = overlap<Real, Real>;
+  out.touching_unsure = true;  // infinite corners are made finite
+  TreeItem<Real>* const items = reserve_items<Real>(tree_memory, source.count);
+  if (items == nullptr) return out_of_memory();
+  std::size_t count = 0;
+  for (std::size_t i = 0; i < source.count; ++i) {
+    if (proper(source[i])) items[count++] = item_of(source[i], static_cast<std::uint32_t>(i));
+  }
+  if (auto error = grow_trees(std::span(items, count), tree_memory, out.bodies)) {
+    return error;
+  }
+  const std::size_t with_slack = count + kSlack;
+  if (!reserve_sorted(order_memory, count, out.bodies) ||
+      !memory.high.reserve(3 * with_slack * sizeof(Real))) {
+    return out_of_memory();
+  }
+  CullArrays<Real>& cull = out.bodies.cull;
+  Real* const high = memory.high.as<Real>();
+  Real* const low[3] = {cull.x, cull.y, cull.z};
+  cull.low_x = cull.x;
+  cull.low_y = cull.y;
+  cull.low_z = cull.z;
+  cull.high_x = high;
+  cull.high_y = high + with_slack;
+  cull.high_z = high + 2 * with_slack;
+  const BoxMap<Real, Real> map;
+  for (std::size_t axis = 0; axis < 3; ++axis) {
+    std::fill(high + axis * with_slack + count, high + (axis + 1) * with_slack, Real(0));
+  }
+  if (auto error = means.run_pieces(
+          count, kPieceBoxes, [&](std::size_t, std::size_t begin, std::size_t end) {
+            for (std::size_t p = begin; p < end; ++p) {
+              const Real* const box = source[items[p].id];
+              out.bodies.ids[p] = items[p].id;
+              for (std::size_t axis = 0; axis < 3; ++axis) {
+                low[axis][p] = map.clamped(box[2 * axis], axis);
+                high[axis * with_slack + p] = map.clamped(box[2 * axis + 1], axis);
+              }
+            }
+          })) {
+    return error;
+  }
+  const auto& kernels = means.kernels->of<Real>().template cull<Real>();
+  return means.run(out.bodies.tree_count,
+                   [&](std::size_t t) { kernels.tree_of_boxes(cull, out.bodies.trees[t]); });
+}
+
+template std::optional<Error> order_boxes_in_trees(const Means&, const BoxSource<float>&,
+                                                   BoxMemory&, OrderMemory&, TreeMemory&,
+                                                   OrderedBoxes<float, float>&);
+template std::optional<Error> order_boxes_in_trees(const Means&, const BoxSource<double>&,
+                                                   BoxMemory&, OrderMemory&, TreeMemory&,
+                                                   OrderedBoxes<double, double>&);
 template Result<BoxOrder> order_boxes(const Means&, const BoxSource<float>&, BoxMemory&,
                                       OrderMemory&, std::vector<std::uint32_t>&,
                                       OrderedBoxes<float, float>&);
@@ -427,4 +479,4 @@ template Result<BoxOrder> order_boxes(const Means&, const BoxSource<double>&, Bo
                                       OrderMemory&, std::vector<std::uint32_t>&,
                                       OrderedBoxes<double, double>&);
 
-}  // namespace harpoon::scene
+}  // namespace harpoon::broad

@@ -5,14 +5,14 @@
 //   3. by bucket, part by part.
 // Each pass reads in order and writes to few places at a time: memory order is what decides.
 
-#include "scene/order.hpp"
+#include "broad/order.hpp"
 
 #include <algorithm>
-#include <cmath>
-#include <cstring>
-#include <limits>
+#include <atomic>
 
-namespace harpoon::scene {
+#include "base/out_of_memory.hpp"
+
+namespace harpoon::broad {
 namespace {
 
 /// Bodies that a part should hold: with tables they fill about half of a second-level cache.
@@ -22,83 +22,6 @@ constexpr std::size_t kWholeBodies = 131072;
 constexpr std::size_t kMaxParts = 512;
 /// Below this many bodies a pass is not shared between threads.
 constexpr std::size_t kParallelBodies = 16384;
-/// Most bodies looked at to find out how much of the world is occupied, and one in how many.
-constexpr std::size_t kSamples = 256;
-constexpr std::size_t kBodiesPerSample = 16;
-
-Error out_of_memory() {
-  return {Errc::out_of_memory, "out of memory"};
-}
-
-template <class Real>
-bool valid(const SphereOf<Real>& b) noexcept {
-  const auto in_range = [](Real v) { return std::abs(v) <= kLimit<Real>; };  // false for NaN
-  return in_range(b.x) && in_range(b.y) && in_range(b.z) && b.r >= 0 && b.r <= kLimit<Real>;
-}
-
-/// Powers of two between a radius and the largest one.
-template <class Real>
-class Classifier {
- public:
-  explicit Classifier(Real largest) noexcept : top_(exponent(largest)) {}
-  std::size_t operator()(Real radius) const noexcept {
-    return std::min<std::size_t>(static_cast<std::size_t>(top_ - exponent(radius)),
-                                 kRadiusClasses - 1);
-  }
-
- private:
-  static int exponent(Real value) noexcept {
-    using Bits = std::conditional_t<sizeof(Real) == 4, std::uint32_t, std::uint64_t>;
-    Bits bits;
-    std::memcpy(&bits, &value, sizeof bits);
-    return static_cast<int>(bits >> (std::numeric_limits<Real>::digits - 1));
-  }
-  int top_;
-};
-
-/// Radii this close share a class.
-constexpr double kOneClassRatio = 1.5;
-
-template <class Real>
-bool one_class(const Extremes<Real>& e) noexcept {
-  return static_cast<double>(e.max[3]) <= kOneClassRatio * static_cast<double>(e.min[3]);
-}
-
-/// Bodies of each class, and the largest radius among them, in a part of the bodies.
-template <class Real>
-class ClassCounts {
- public:
-  void count(const Source<Real>& source, const Classifier<Real>& class_of, bool all_valid,
-             std::size_t begin, std::size_t end) noexcept {
-    for (std::size_t i = begin; i < end; ++i) {
-      const SphereOf<Real> b = source[i];
-      if (!all_valid && !valid(b)) continue;
-      // Neighbours count apart, or each would wait for the one before it.
-      Class& c = classes_[i % kTurns][class_of(b.r)];
-      ++c.bodies;
-      c.max_radius = std::max(c.max_radius, b.r);
-    }
-  }
-
-  void add_to(std::array<RadiusClass, kRadiusClasses>& classes) const noexcept {
-    for (const auto& turn : classes_) {
-      for (std::size_t c = 0; c < kRadiusClasses; ++c) {
-        classes[c].bodies += turn[c].bodies;
-        classes[c].max_radius =
-            std::max(classes[c].max_radius, static_cast<double>(turn[c].max_radius));
-      }
-    }
-  }
-
- private:
-  static constexpr std::size_t kTurns = 4;
-  struct Class {
-    std::size_t bodies = 0;
-    Real max_radius = 0;
-  };
-  std::array<std::array<Class, kRadiusClasses>, kTurns> classes_ = {};
-};
-
 /// Tasks for a pass over `bodies`, and where they begin.
 struct Chunks {
   std::size_t bodies, count;
@@ -112,35 +35,6 @@ struct Chunks {
     return bodies * chunk / count;
   }
 };
-
-template <class Real>
-void merge(Extremes<Real>& into, const Extremes<Real>& from) noexcept {
-  for (int k = 0; k < 4; ++k) {
-    into.min[k] = std::min(into.min[k], from.min[k]);
-    into.max[k] = std::max(into.max[k], from.max[k]);
-  }
-  into.invalid += from.invalid;
-}
-
-/// Length of an axis near which bodies are, from a sample: long gaps count as short ones.
-template <class Real>
-double occupied_length(const Source<Real>& source, int axis, double longest_gap) noexcept {
-  Real samples[kSamples];
-  std::size_t count = 0;
-  const std::size_t step =
-      std::max(std::min(source.count, kBodiesPerSample), source.count / kSamples);
-  for (std::size_t i = 0; i < source.count && count < kSamples; i += step) {
-    const SphereOf<Real> b = source[i];
-    if (valid(b)) samples[count++] = axis == 0 ? b.x : axis == 1 ? b.y : b.z;
-  }
-  std::sort(samples, samples + count);
-  double length = 0;
-  for (std::size_t k = 1; k < count; ++k) {
-    length += std::min(static_cast<double>(samples[k]) - static_cast<double>(samples[k - 1]),
-                       longest_gap);
-  }
-  return length;
-}
 
 /// Bodies of each level or part in each chunk, then the position of the first of them.
 class CountTable {
@@ -204,11 +98,15 @@ class Sorter {
 
   std::optional<Error> run() {
     const std::size_t bodies = survey_.census.bodies;
-    if (!make_grids() || !reserve(bodies + out_.scanned)) return out_of_memory();
+    const std::size_t all = bodies + out_.scanned;
+    if (!make_grids() || !reserve_sorted(memory_, all, out_) ||
+        !memory_.buckets.reserve((all + kSlack) * sizeof(std::uint32_t))) {
+      return out_of_memory();
+    }
     if (bodies == 0) return std::nullopt;
     const std::uint32_t* ids = nullptr;
     Source<Real> source = source_;
-    if (plan_.level_count > 1 || survey_.extremes.invalid != 0) {
+    if (plan_.level_count > 1 || survey_.left_out() != 0) {
       if (auto error = stage_levels()) return error;
       source = records(memory_.staged.template as<SphereOf<Real>>(), bodies);
       ids = memory_.staged_ids.as<std::uint32_t>();
@@ -216,6 +114,7 @@ class Sorter {
     for (std::size_t level = 0; level < plan_.level_count; ++level) {
       if (auto error = sort_level(source, ids, out_.grids[level])) return error;
     }
+    out_.most_in_bucket = most_in_bucket_;
     return std::nullopt;
   }
 
@@ -226,10 +125,8 @@ class Sorter {
     Cull min[3];
     Cull max[3];
     for (int k = 0; k < 3; ++k) {
-      min[k] =
-          static_cast<Cull>(static_cast<double>(survey_.extremes.min[k]) - plan_.map.origin[k]);
-      max[k] =
-          static_cast<Cull>(static_cast<double>(survey_.extremes.max[k]) - plan_.map.origin[k]);
+      min[k] = static_cast<Cull>(survey_.census.min[k] - plan_.map.origin[k]);
+      max[k] = static_cast<Cull>(survey_.census.max[k] - plan_.map.origin[k]);
     }
     std::size_t buckets = 0;
     std::size_t position = 0;
@@ -252,24 +149,6 @@ class Sorter {
     return true;
   }
 
-  bool reserve(std::size_t bodies) noexcept {
-    const std::size_t with_slack = bodies + kSlack;
-    if (!memory_.sorted.reserve(with_slack * sizeof(SphereOf<Real>)) ||
-        !memory_.ids.reserve(with_slack * sizeof(std::uint32_t)) ||
-        !memory_.buckets.reserve(with_slack * sizeof(std::uint32_t)) ||
-        !memory_.cull.reserve(4 * with_slack * sizeof(Cull))) {
-      return false;
-    }
-    auto* cull = memory_.cull.template as<Cull>();
-    out_.cull = {cull, cull + with_slack, cull + 2 * with_slack, cull + 3 * with_slack};
-    for (std::size_t k = bodies; k < with_slack; ++k) {
-      out_.cull.x[k] = out_.cull.y[k] = out_.cull.z[k] = out_.cull.r[k] = 0;
-    }
-    out_.spheres = memory_.sorted.template as<SphereOf<Real>>();
-    out_.ids = memory_.ids.as<std::uint32_t>();
-    return true;
-  }
-
   /// Pass 1.
   std::optional<Error> stage_levels() {
     const Chunks chunks(means_, source_.count);
@@ -281,15 +160,16 @@ class Sorter {
       return out_of_memory();
     }
     CountTable counts(memory_.counts.as<std::uint32_t>(), chunks.count, levels);
-    const Classifier<Real> class_of(survey_.extremes.max[3]);
-    const bool single = one_class(survey_.extremes);
+    const Classifier<Real> class_of(survey_.largest);
     const bool all_valid = survey_.extremes.invalid == 0;
     const auto each = [&](std::size_t chunk, const auto& visit) {
       const std::size_t end = chunks.begin(chunk + 1);
       for (std::size_t i = chunks.begin(chunk); i < end; ++i) {
         const SphereOf<Real> b = source_[i];
-        if (!all_valid && !valid(b)) continue;
-        visit(i, b, plan_.level_of_class[single ? 0 : class_of(b.r)]);
+        if (!all_valid && !is_valid(b)) continue;
+        const int size = survey_.one_class ? 0 : class_of(b.r);
+        if (size < 0) continue;
+        visit(i, b, plan_.level_of_class[static_cast<std::size_t>(size)]);
       }
     };
     if (chunks.count == 1) {  // counted by the survey
@@ -351,10 +231,15 @@ class Sorter {
     std::fill(ends + first, ends + last, 0U);
     for (std::size_t i = run.begin; i < run.end; ++i) ++ends[run.buckets[i]];
     auto position = static_cast<std::uint32_t>(run.begin);
+    std::uint32_t most = 0;
     for (std::size_t b = first; b < last; ++b) {
       const std::uint32_t bodies = ends[b];
       ends[b] = position;
       position += bodies;
+      most = std::max(most, bodies);
+    }
+    std::uint32_t before = most_in_bucket_;
+    while (before < most && !most_in_bucket_.compare_exchange_weak(before, most)) {
     }
     auto* const spheres = memory_.sorted.template as<SphereOf<Real>>();
     auto* const ids = memory_.ids.as<std::uint32_t>();
@@ -429,61 +314,27 @@ class Sorter {
   const Plan& plan_;
   OrderMemory& memory_;
   Ordered<Real, Cull>& out_;
+  std::atomic<std::uint32_t> most_in_bucket_{0};
 };
 
 }  // namespace
 
-template <class Real>
-std::optional<Error> survey(const Means& means, const Source<Real>& source, double margin,
-                            std::vector<std::uint32_t>& excluded, Survey<Real>& out) {
-  const Chunks chunks(means, source.count);
-  const auto& kernels = means.kernels->of<Real>();
-  constexpr std::size_t kMaxChunks = 64;
-  const std::size_t tasks = std::min(chunks.count, kMaxChunks);
-  Extremes<Real> extremes[kMaxChunks];
-  if (auto error = means.run(tasks, [&](std::size_t task) {
-        extremes[task] = kernels.extremes(source, source.count * task / tasks,
-                                          source.count * (task + 1) / tasks);
-      })) {
-    return error;
+template <class Real, class Cull>
+bool reserve_sorted(OrderMemory& memory, std::size_t bodies, Ordered<Real, Cull>& out) noexcept {
+  const std::size_t with_slack = bodies + kSlack;
+  if (!memory.sorted.reserve(with_slack * sizeof(SphereOf<Real>)) ||
+      !memory.ids.reserve(with_slack * sizeof(std::uint32_t)) ||
+      !memory.cull.reserve(4 * with_slack * sizeof(Cull))) {
+    return false;
   }
-  for (std::size_t task = 1; task < tasks; ++task) merge(extremes[0], extremes[task]);
-  out.extremes = extremes[0];
-  if (out.extremes.invalid != 0) {
-    excluded.reserve(excluded.size() + out.extremes.invalid);
-    for (std::size_t i = 0; i < source.count; ++i) {
-      if (!valid(source[i])) excluded.push_back(static_cast<std::uint32_t>(i));
-    }
+  auto* cull = memory.cull.as<Cull>();
+  out.cull = {cull, cull + with_slack, cull + 2 * with_slack, cull + 3 * with_slack};
+  for (std::size_t k = bodies; k < with_slack; ++k) {
+    out.cull.x[k] = out.cull.y[k] = out.cull.z[k] = out.cull.r[k] = 0;
   }
-  Census& census = out.census;
-  census.bodies = source.count - out.extremes.invalid;
-  census.margin = margin;
-  census.real_digits = std::numeric_limits<Real>::digits;
-  if (census.bodies == 0) return std::nullopt;
-  for (int k = 0; k < 3; ++k) {
-    census.min[k] = static_cast<double>(out.extremes.min[k]);
-    census.max[k] = static_cast<double>(out.extremes.max[k]);
-    census.occupied[k] = census.max[k] - census.min[k];
-  }
-  if (one_class(out.extremes)) {
-    census.classes[0] = {census.bodies, static_cast<double>(out.extremes.max[3])};
-  } else {
-    const Classifier<Real> class_of(out.extremes.max[3]);
-    constexpr std::size_t kLeast = kParallelBodies / 4;
-    std::vector<ClassCounts<Real>> counts(means.pieces(source.count, kLeast));
-    if (auto error = means.run_pieces(
-            source.count, kLeast, [&](std::size_t piece, std::size_t begin, std::size_t end) {
-              counts[piece].count(source, class_of, out.extremes.invalid == 0, begin, end);
-            })) {
-      return error;
-    }
-    for (const ClassCounts<Real>& piece : counts) piece.add_to(census.classes);
-  }
-  if (is_sparse(census)) {
-    const double gap = 8 * (2 * static_cast<double>(out.extremes.max[3]) + margin);
-    for (int k = 0; k < 3; ++k) census.occupied[k] = occupied_length(source, k, gap);
-  }
-  return std::nullopt;
+  out.spheres = memory.sorted.as<SphereOf<Real>>();
+  out.ids = memory.ids.as<std::uint32_t>();
+  return true;
 }
 
 template <class Real, class Cull>
@@ -493,10 +344,24 @@ std::optional<Error> order(const Means& means, const Source<Real>& source,
   return Sorter<Real, Cull>(means, source, survey, plan, memory, out).run();
 }
 
-template std::optional<Error> survey(const Means&, const Source<float>&, double,
-                                     std::vector<std::uint32_t>&, Survey<float>&);
-template std::optional<Error> survey(const Means&, const Source<double>&, double,
-                                     std::vector<std::uint32_t>&, Survey<double>&);
+template <class Real, class Cull>
+void place_giants(const Means& means, const Source<Real>& source, const Survey<Real>& survey,
+                  const Plan& plan, OrderMemory& memory, Ordered<Real, Cull>& out) noexcept {
+  auto* const spheres = memory.sorted.as<SphereOf<Real>>();
+  const std::size_t end = out.bodies + survey.giants.size();
+  for (std::size_t p = out.bodies; p < end; ++p) {
+    const std::uint32_t id = survey.giants[p - out.bodies];
+    spheres[p] = source[id];
+    out.ids[p] = id;
+  }
+  means.kernels->of<Real>().template cull<Cull>().cull_arrays(spheres, plan.map, out.bodies, end,
+                                                              out.cull);
+}
+
+template bool reserve_sorted(OrderMemory&, std::size_t, Ordered<float, float>&) noexcept;
+template bool reserve_sorted(OrderMemory&, std::size_t, Ordered<float, double>&) noexcept;
+template bool reserve_sorted(OrderMemory&, std::size_t, Ordered<double, float>&) noexcept;
+template bool reserve_sorted(OrderMemory&, std::size_t, Ordered<double, double>&) noexcept;
 template std::optional<Error> order(const Means&, const Source<float>&, const Survey<float>&,
                                     const Plan&, OrderMemory&, Ordered<float, float>&);
 template std::optional<Error> order(const Means&, const Source<float>&, const Survey<float>&,
@@ -506,4 +371,13 @@ template std::optional<Error> order(const Means&, const Source<double>&, const S
 template std::optional<Error> order(const Means&, const Source<double>&, const Survey<double>&,
                                     const Plan&, OrderMemory&, Ordered<double, double>&);
 
-}  // namespace harpoon::scene
+template void place_giants(const Means&, const Source<float>&, const Survey<float>&, const Plan&,
+                           OrderMemory&, Ordered<float, float>&) noexcept;
+template void place_giants(const Means&, const Source<float>&, const Survey<float>&, const Plan&,
+                           OrderMemory&, Ordered<float, double>&) noexcept;
+template void place_giants(const Means&, const Source<double>&, const Survey<double>&, const Plan&,
+                           OrderMemory&, Ordered<double, float>&) noexcept;
+template void place_giants(const Means&, const Source<double>&, const Survey<double>&, const Plan&,
+                           OrderMemory&, Ordered<double, double>&) noexcept;
+
+}  // namespace harpoon::broad

@@ -10,11 +10,12 @@
 #include <optional>
 #include <vector>
 
+#include "broad/order.hpp"
+#include "broad/search.hpp"
+#include "broad/tree.hpp"
 #include "harpoon/scene.hpp"
-#include "scene/order.hpp"
-#include "scene/search.hpp"
 
-namespace harpoon::scene {
+namespace harpoon::broad {
 
 /// The caller's boxes.
 template <class Real>
@@ -34,6 +35,8 @@ struct BoxMemory {
   Buffer high;     ///< highest corners in sorted order, one array for each axis
   Buffer low;      ///< lowest corners along the axes that the grid ignores
   std::vector<std::uint32_t> invalid, scanned;
+
+  [[nodiscard]] std::size_t bytes() const noexcept { return bytes_of(corners, high, low); }
 };
 
 /// Boxes in search order, in culling coordinates.
@@ -50,6 +53,7 @@ enum class BoxOrder : std::uint8_t {
   done,
   nothing,       ///< no valid box
   needs_double,  ///< float does not resolve these boxes; never with Cull = double
+  needs_trees,   ///< too many boxes fit no grid
 };
 
 /// Surveys and orders the boxes; ids of invalid ones are appended to `excluded`, unless another
@@ -59,4 +63,10 @@ Result<BoxOrder> order_boxes(const Means& means, const BoxSource<Real>& source, 
                              OrderMemory& order_memory, std::vector<std::uint32_t>& excluded,
                              OrderedBoxes<Real, Cull>& out);
 
-}  // namespace harpoon::scene
+/// The same without grids, for any boxes; invalid ones are known from the attempt before it.
+template <class Real>
+std::optional<Error> order_boxes_in_trees(const Means& means, const BoxSource<Real>& source,
+                                          BoxMemory& memory, OrderMemory& order_memory,
+                                          TreeMemory& tree_memory, OrderedBoxes<Real, Real>& out);
+
+}  // namespace harpoon::broad

@@ -9,9 +9,9 @@
 #include <cstdint>
 #include <limits>
 
-#include "scene/grid.hpp"
+#include "broad/grid.hpp"
 
-namespace harpoon::scene {
+namespace harpoon::broad {
 
 /// Radii are classed by powers of two below the largest; the last class takes all the rest.
 inline constexpr std::size_t kRadiusClasses = 24;
@@ -25,10 +25,14 @@ struct RadiusClass {
 /// which two bodies count as near.
 struct Census {
   std::size_t bodies = 0;
-  double min[3] = {0, 0, 0};
+  double min[3] = {0, 0, 0};  ///< the world, or the core of it where most bodies are
   double max[3] = {0, 0, 0};
+  bool bodies_beyond = false;  ///< some are beyond min or max
   double margin = 0;
-  bool cull_double = false;  ///< culling has to be in double
+  std::size_t giants = 0;      ///< bodies in no grid, which are tested against blocks of the others
+  bool giants_abound = false;  ///< too many for that, so they are among the others
+  double giant_distance = 0;   ///< largest of those that come near the core
+  bool cull_double = false;    ///< culling has to be in double
   std::size_t real_digits = std::numeric_limits<float>::digits;
   std::array<RadiusClass, kRadiusClasses> classes;
   /// How much of each axis the bodies occupy; the whole extent where that is not known.
@@ -44,7 +48,9 @@ struct LevelPlan {
   std::uint32_t row_shift = 0;
   std::uint32_t half_window = 1;
   bool folded = false;
-  double candidates = 0;  ///< in a window, on average
+  double candidates = 0;       ///< in a window, on average
+  bool bodies_beyond = false;  ///< as in the census
+  bool bordered = false;       ///< empty rows lie between the world and what is beyond it
 };
 
 struct Plan {
@@ -52,6 +58,7 @@ struct Plan {
   std::size_t level_count = 0;
   std::array<std::uint8_t, kRadiusClasses> level_of_class = {};
   bool cull_double = false;
+  bool in_trees = false;  ///< no grid is any good
   CullMap map;
 };
 
@@ -66,4 +73,4 @@ template <class Cull>
 Grid<Cull> make_grid(const LevelPlan& level, const CullMap& map, const Cull min[3],
                      const Cull max[3]) noexcept;
 
-}  // namespace harpoon::scene
+}  // namespace harpoon::broad

@@ -8,10 +8,10 @@
 #include <string_view>
 #include <type_traits>
 
+#include "broad/grid.hpp"
 #include "harpoon/records.hpp"
-#include "scene/grid.hpp"
 
-namespace harpoon::scene {
+namespace harpoon::broad {
 
 /// The caller's bodies: four arrays of numbers, `stride_bytes` apart.
 template <class Real>
@@ -36,12 +36,19 @@ struct Source {
 template <class Real>
 inline constexpr Real kLimit = std::is_same_v<Real, float> ? Real(0x1p62) : Real(0x1p510);
 
-/// Extremes over the valid bodies of a range.
+/// Extremes over the bodies of a range that are valid and within limits.
 template <class Real>
 struct Extremes {
   Real min[4];  ///< x, y, z, r
   Real max[4];
-  std::size_t invalid = 0;
+  std::size_t invalid = 0;  ///< and those beyond the limits
+};
+
+/// Which centres count.
+template <class Real>
+struct Limits {
+  Real low[3] = {-kLimit<Real>, -kLimit<Real>, -kLimit<Real>};
+  Real high[3] = {kLimit<Real>, kLimit<Real>, kLimit<Real>};
 };
 
 /// Sorted positions of two bodies each. The search appends, with up to kSlack elements of overrun.
@@ -73,22 +80,27 @@ struct SearchJob {
   /// Whether boxes in grids that touch in culling coordinates are judged, because rounding may have
   /// brought them together. Scanned ones are in any case.
   bool judge_touching = false;
+  const Tree<Cull>* trees = nullptr;  ///< in place of grids; coarsest first
+  /// Largest pad of the radii of scanned spheres and those in trees.
+  Cull radius_pad = 0;
 };
 
 struct SearchResult {
-  std::uint64_t tests = 0;  ///< pairs tested
-  bool doubtful = false;    ///< some candidates may turn out not to be contacts
+  std::uint64_t tests = 0;       ///< pairs tested because they share or neighbour a cell, or a leaf
+  bool doubtful = false;         ///< some candidates may turn out not to be contacts
+  std::uint64_t scan_tests = 0;  ///< pairs of a scanned body
 
   SearchResult& operator+=(const SearchResult& other) noexcept {
     tests += other.tests;
+    scan_tests += other.scan_tests;
     doubtful = doubtful || other.doubtful;
     return *this;
   }
 };
 
-/// Candidates of the bodies [begin, end) of one level, a block: among themselves and later bodies
-/// of the level, against all coarser levels, and against the scanned bodies. Level job.levels is
-/// the scanned bodies themselves.
+/// Candidates of the bodies [begin, end) of one level (or tree), a block: among themselves and
+/// later bodies of the level, against all coarser levels, and against the scanned bodies. Level
+/// job.levels is the scanned bodies themselves.
 template <class Cull>
 using SearchKernel = SearchResult (*)(const SearchJob<Cull>& job, std::size_t level,
                                       std::uint32_t begin, std::uint32_t end, Candidates& list,
@@ -105,11 +117,15 @@ struct CullKernels {
   SearchKernel<Cull> search;
   /// Where the arrays hold boxes: candidates overlap exactly.
   SearchKernel<Cull> search_boxes;
+  /// Boxes of all nodes of a tree of spheres, and of one of boxes.
+  void (*tree_of_spheres)(const CullArrays<Cull>& bodies, const Tree<Cull>& tree);
+  void (*tree_of_boxes)(const CullArrays<Cull>& bodies, const Tree<Cull>& tree);
 };
 
 template <class Real>
 struct Kernels {
-  Extremes<Real> (*extremes)(const Source<Real>& source, std::size_t begin, std::size_t end);
+  Extremes<Real> (*extremes)(const Source<Real>& source, const Limits<Real>& limits,
+                             std::size_t begin, std::size_t end);
   /// The largest squared distance between a body's places in the two arrays; infinite when a radius
   /// differs or a number is not finite.
   Real (*largest_move)(const SphereOf<Real>* from, const SphereOf<Real>* to, std::size_t count);
@@ -153,4 +169,4 @@ struct KernelTable {
 /// build or machine has no such set.
 const KernelTable* find_kernels(std::string_view instruction_set) noexcept;
 
-}  // namespace harpoon::scene
+}  // namespace harpoon::broad

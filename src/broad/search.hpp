@@ -7,10 +7,10 @@
 #include <optional>
 #include <vector>
 
+#include "broad/order.hpp"
 #include "harpoon/scene.hpp"
-#include "scene/order.hpp"
 
-namespace harpoon::scene {
+namespace harpoon::broad {
 
 /// Decides by ids which pairs count.
 class PairFilter {
@@ -48,7 +48,23 @@ struct TaskList {
 /// were asked for, filtered, in order.
 struct SearchMemory {
   std::vector<TaskList> lists;
-  std::size_t used = 0;  ///< lists of the latest search
+  std::size_t used = 0;             ///< lists of the latest search
+  bool gave_up = false;             ///< it took too many tests: nothing is known
+  std::uint64_t tests_in_vain = 0;  ///< when it gave up: those that it was given
+
+  [[nodiscard]] std::size_t bytes() const noexcept {
+    std::size_t sum = 0;
+    for (const TaskList& list : lists) sum += list.memory.bytes();
+    return sum;
+  }
+
+  /// Pairs tested by the latest search.
+  [[nodiscard]] std::uint64_t tests() const noexcept {
+    if (gave_up) return tests_in_vain;
+    std::uint64_t sum = 0;
+    for (std::size_t k = 0; k < used; ++k) sum += lists[k].tests;
+    return sum;
+  }
 
   [[nodiscard]] std::uint64_t dropped() const noexcept {
     std::uint64_t sum = 0;
@@ -69,6 +85,10 @@ struct SearchRule {
   bool judge_touching = false;
 };
 
+/// Tests for each body, on average, after which a search in grids gives up: something is wrong with
+/// them. Trees are never given up.
+inline constexpr std::uint64_t kMostTests = 256;
+
 /// Searches. When there are more than `limit` pairs, they are counted, not kept: then the sum of
 /// `dropped` over all lists is their exact number and all lists are empty. A search for near
 /// spheres ends there instead, and the sum is only beyond the limit.
@@ -77,4 +97,4 @@ std::optional<Error> search(const Means& means, const Ordered<Real, Cull>& bodie
                             const SearchRule& rule, const PairFilter& filter, std::uint64_t limit,
                             SearchMemory& memory);
 
-}  // namespace harpoon::scene
+}  // namespace harpoon::broad

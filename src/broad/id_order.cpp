@@ -1,10 +1,12 @@
-#include "scene/id_order.hpp"
+#include "broad/id_order.hpp"
 
 #include <algorithm>
 #include <limits>
 #include <utility>
 
-namespace harpoon::scene {
+#include "base/out_of_memory.hpp"
+
+namespace harpoon::broad {
 namespace {
 
 /// Candidates that a part should hold.
@@ -55,7 +57,7 @@ class IdSorter {
     const std::size_t wanted = std::clamp<std::size_t>(count / kPartCandidates, 1, kMaxParts);
     while ((bodies_ >> shift_) >= wanted && shift_ < 31) ++shift_;
     parts_ = (bodies_ >> shift_) + 1;
-    if (!reserve(count)) return Error{Errc::out_of_memory, "out of memory"};
+    if (!reserve(count)) return out_of_memory();
     out.i = memory_.list.as<std::uint32_t>();
     out.j = out.i + count + kSlack;
     out.count = out.capacity = count;
@@ -160,4 +162,4 @@ std::optional<Error> ids_in_order(const Means& means, const std::uint32_t* ids, 
   return IdSorter<IdPair>(means, ids, bodies, lists, memory).run(out);
 }
 
-}  // namespace harpoon::scene
+}  // namespace harpoon::broad

@@ -6,7 +6,7 @@
 #include <cstddef>
 #include <new>
 
-namespace harpoon::scene {
+namespace harpoon {
 
 /// Cache-line-aligned memory, in large pages where it is large; null when there is none.
 void* allocate_large(std::size_t bytes) noexcept;
@@ -39,6 +39,12 @@ class Buffer {
   std::size_t bytes_ = 0;
 };
 
+/// Memory held by all of them.
+template <class... Memories>
+[[nodiscard]] std::size_t bytes_of(const Memories&... memories) noexcept {
+  return (memories.bytes() + ...);
+}
+
 /// Memory as a buffer's for std::vector, so that random access over it meets large pages.
 template <class T>
 struct LargeAllocator {
@@ -61,4 +67,4 @@ struct LargeAllocator {
   friend bool operator==(const LargeAllocator&, const LargeAllocator&) noexcept { return true; }
 };
 
-}  // namespace harpoon::scene
+}  // namespace harpoon

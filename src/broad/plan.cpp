@@ -3,14 +3,14 @@
 // few windows but many bodies in each; a window of up to 16 bodies is one vector test. The
 // constants are nanoseconds measured on one machine; only their ratios matter, and only for speed.
 
-#include "scene/plan.hpp"
+#include "broad/plan.hpp"
 
 #include <algorithm>
 #include <array>
 #include <cmath>
 #include <limits>
 
-namespace harpoon::scene {
+namespace harpoon::broad {
 namespace {
 
 constexpr double kWindowNs = 2.5;  ///< to find a window
@@ -32,12 +32,19 @@ constexpr double kMaxCellsDouble = 0x1p28;
 /// Largest loss of a double coordinate's resolution in float that culling puts up with, as a part
 /// of the radius.
 constexpr double kMaxRelativePad = 0.02;
+/// The same for giants, as a multiple of the radius of the largest other body.
+constexpr double kMaxGiantPad = 8;
+/// More giants than this are not tested against blocks of a folded grid, whose bodies are anywhere.
+constexpr std::size_t kMaxGiantsOfFolded = 64;
+/// What lies beyond a world of fewer cells would be near too much of it: empty rows part them.
+constexpr double kBorderedCells = 16;
+/// Cells along an axis with which float is always safe, and how many times the cost of culling in
+/// double a plan with no more than these may have.
+constexpr double kSafeCellsFloat = 0x1p13;
+constexpr double kDoubleCost = 1.5;
 
 /// Up to this many candidates in a window its tests are made for short runs.
 constexpr double kShortRun = 6;
-/// Spheres nearer than by this part of the square of the largest reach touch, whatever culling
-/// rounded (docs/scene.md).
-constexpr double kDoubt = 0x1p-13;
 
 /// Vector tests for an average of `bodies` candidates in a window.
 double vector_tests(double bodies) noexcept {
@@ -78,14 +85,19 @@ struct RowCut {
 /// All cuts of a level whose sub-cell is given.
 class Cutter {
  public:
-  Cutter(const Census& census, double sub_cell) noexcept : sub_cell_(sub_cell) {
+  Cutter(const Census& census, double sub_cell) noexcept
+      : sub_cell_(sub_cell),
+        giants_(static_cast<double>(census.giants)),
+        beyond_(census.bodies_beyond),
+        bordered_(beyond_ && largest_extent(census) < kBorderedCells * sub_cell) {
     const auto share = [&](double window, int axis) {
       return std::min(1.0, window / std::max(census.occupied[axis], sub_cell));
     };
     for (std::size_t w = 0; w < kHalfWindows.size(); ++w) {
       const double k = kHalfWindows[w];
       const double cell = sub_cell / k;
-      lines_[w] = {cell, extent(census, 0) / cell + 1, share((2 * k + 1) * cell, 0)};
+      const double border = bordered_ ? 4 * (k + 1) : 0;
+      lines_[w] = {cell, extent(census, 0) / cell + 1 + border, share((2 * k + 1) * cell, 0)};
     }
     for (std::size_t r = 0; r < kRowShifts.size(); ++r) {
       const double s = static_cast<double>(1U << kRowShifts[r]);
@@ -93,8 +105,8 @@ class Cutter {
       const double windows = (1 + 1 / s) * (1 + 1 / s);
       rows_[r] = {windows,
                   windows + 1 / (s * s) - 1,
-                  extent(census, 1) / row + 1,
-                  extent(census, 2) / row + 1,
+                  extent(census, 1) / row + 1 + (bordered_ ? 4 : 0),
+                  extent(census, 2) / row + 1 + (bordered_ ? 4 : 0),
                   share(row, 1),
                   share(row, 2)};
     }
@@ -109,30 +121,34 @@ class Cutter {
     double buckets = (line.cells + k) * (row.rows_y + 1) * (row.rows_z + 1);
     double candidates = line.share * row.share_y * row.share_z * bodies;
     const bool folded = buckets > kDenseBuckets * bodies + kMinBuckets;
+    double scans = 0;
     if (folded) {
       buckets = kFoldedBuckets * bodies + kMinBuckets;
       candidates += (2 * k + 1) / kFoldedBuckets;
+      scans = giants_ / kVectorBodies;
     }
     const double full_test = kTestNs * vector_tests(candidates);
     Cut cut;
-    cut.level = {level_bodies,  cull_radius,     sub_cell_, line.cell,
-                 kRowShifts[r], kHalfWindows[w], folded,    candidates};
+    cut.level = {level_bodies,    cull_radius, sub_cell_,  line.cell, kRowShifts[r],
+                 kHalfWindows[w], folded,      candidates, beyond_,   bordered_};
     cut.own_ns = bodies * (row.others * (kWindowNs + full_test) + kBodyNs + kWindowNs +
-                           kTestNs * vector_tests(candidates / 2)) +
+                           kTestNs * (vector_tests(candidates / 2) + scans)) +
                  buckets * kBucketNs;
     cut.foreign_ns = row.windows * (1.5 * kWindowNs + full_test);
     return cut;
   }
 
  private:
-  double sub_cell_;
+  double sub_cell_, giants_;
+  bool beyond_, bordered_;
   std::array<LineCut, kHalfWindows.size()> lines_;
   std::array<RowCut, kRowShifts.size()> rows_;
 };
 
 /// The best cut of a level of the given bodies.
-Cut best_cut(const Census& census, std::size_t bodies, double cull_radius, bool only) noexcept {
-  const double reach = std::max(2 * cull_radius, largest_extent(census) / kMaxCellsDouble);
+Cut best_cut(const Census& census, std::size_t bodies, double cull_radius, bool only,
+             double most_cells) noexcept {
+  const double reach = std::max(2 * cull_radius, largest_extent(census) / most_cells);
   Cut best;
   for (const double widening : kWidenings) {
     const Cutter cutter(census, reach * kReachScale * widening);
@@ -149,8 +165,8 @@ Cut best_cut(const Census& census, std::size_t bodies, double cull_radius, bool 
 CullMap cull_map(const Census& census, bool cull_double) noexcept {
   CullMap map;
   const bool real_double = census.real_digits > std::numeric_limits<float>::digits;
-  // Below these distances squares underflow and the collider finds the centres to coincide.
-  map.radius_pad = real_double && cull_double ? 0x1p-520 : 0x1p-60;
+  map.radius_pad =
+      real_double && cull_double ? kUnderflowPad<double, double> : kUnderflowPad<double, float>;
   if (real_double && !cull_double) {
     std::copy(census.min, census.min + 3, map.origin);
     map.radius_pad += largest_extent(census) * 0x1p-22;
@@ -162,7 +178,7 @@ CullMap cull_map(const Census& census, bool cull_double) noexcept {
 /// Levels of the classes, coarsest first: the partition into runs of classes that costs least.
 class Partition {
  public:
-  Partition(const Census& census, const CullMap& map) noexcept {
+  Partition(const Census& census, const CullMap& map, double most_cells) noexcept {
     for (std::size_t c = 0; c < kRadiusClasses; ++c) {
       if (census.classes[c].bodies != 0) used_[used_count_++] = c;
     }
@@ -177,8 +193,8 @@ class Partition {
       for (std::size_t first = last + 1; first-- > 0;) {
         bodies += census.classes[used_[first]].bodies;
         radius = std::max(radius, census.classes[used_[first]].max_radius);
-        const Cut cut =
-            best_cut(census, bodies, radius * kRadiusScale + map.radius_pad, used_count_ == 1);
+        const Cut cut = best_cut(census, bodies, radius * kRadiusScale + map.radius_pad,
+                                 used_count_ == 1, most_cells);
         const double total = cost[first] + cut.own_ns + cut.foreign_ns * static_cast<double>(finer);
         if (total < cost[last + 1]) {
           cost[last + 1] = total;
@@ -187,7 +203,11 @@ class Partition {
         }
       }
     }
+    cost_ns_ = cost[used_count_];
   }
+
+  [[nodiscard]] double cost_ns() const noexcept { return cost_ns_; }
+  [[nodiscard]] bool of_one_class() const noexcept { return used_count_ == 1; }
 
   void write(Plan& plan) const noexcept {
     std::size_t boundaries[kRadiusClasses];
@@ -208,15 +228,19 @@ class Partition {
   std::size_t used_count_ = 0;
   std::array<std::size_t, kRadiusClasses> first_ = {};
   std::array<LevelPlan, kRadiusClasses> cut_;
+  double cost_ns_ = 0;
 };
+
+/// Whether a world is beyond the reach of float, or so small that squares underflow.
+bool beyond_float(const Census& census) noexcept {
+  const double size = largest_extent(census);
+  return census.real_digits > std::numeric_limits<float>::digits &&
+         (size > 0x1p50 || census.margin > 0x1p50 || size < 0x1p-30);
+}
 
 /// Whether float cannot number the cells of a level safely, or loses too much of the coordinates.
 bool needs_double(const Census& census, const Plan& plan) noexcept {
   const double size = largest_extent(census);
-  if (census.real_digits > std::numeric_limits<float>::digits) {
-    if (size > 0x1p50 || census.margin > 0x1p50) return true;
-    if (size < 0x1p-30) return true;
-  }
   for (std::size_t l = 0; l < plan.level_count; ++l) {
     const LevelPlan& level = plan.levels[l];
     if (size / level.cell_x > kMaxCellsFloat) return true;
@@ -226,6 +250,13 @@ bool needs_double(const Census& census, const Plan& plan) noexcept {
     }
   }
   return false;
+}
+
+/// Whether giants near the world are so far from its corner that float does not tell them apart
+/// from what they touch.
+bool giants_need_double(const Census& census, const Plan& plan) noexcept {
+  return census.real_digits > std::numeric_limits<float>::digits && plan.level_count != 0 &&
+         census.giant_distance * kFarPad > kMaxGiantPad * plan.levels[0].max_radius;
 }
 
 std::uint32_t power_of_two_at_least(double value) noexcept {
@@ -262,6 +293,15 @@ void choose_strides(Grid<Cull>& grid) noexcept {
   grid.stride_z = z & (buckets - 1);
 }
 
+/// Whether the level with the most bodies is folded.
+bool most_are_folded(const Plan& plan) noexcept {
+  const auto* const end = plan.levels.data() + plan.level_count;
+  const auto* const most =
+      std::max_element(plan.levels.data(), end,
+                       [](const LevelPlan& a, const LevelPlan& b) { return a.bodies < b.bodies; });
+  return most != end && most->folded;
+}
+
 }  // namespace
 
 bool is_sparse(const Census& census) noexcept {
@@ -275,12 +315,27 @@ bool is_sparse(const Census& census) noexcept {
 
 Plan make_plan(const Census& census) noexcept {
   Plan plan;
+  if (census.bodies == 0) {
+    plan.cull_double = census.cull_double;
+    plan.map = cull_map(census, plan.cull_double);
+    return plan;
+  }
   plan.map = cull_map(census, false);
-  Partition(census, plan.map).write(plan);
-  if (census.cull_double || needs_double(census, plan)) {
+  const Partition in_float(census, plan.map, kMaxCellsDouble);
+  in_float.write(plan);
+  bool in_double = census.cull_double || beyond_float(census) || giants_need_double(census, plan);
+  if (!in_double && needs_double(census, plan)) {
+    // Few bodies may be so small: then it is cheaper to keep them in the cells of larger ones.
+    const Partition safe(census, plan.map, kSafeCellsFloat);
+    in_double = in_float.of_one_class() || !(safe.cost_ns() <= kDoubleCost * in_float.cost_ns());
+    if (!in_double) safe.write(plan);
+  }
+  plan.in_trees =
+      census.giants_abound || (census.giants > kMaxGiantsOfFolded && most_are_folded(plan));
+  if (in_double) {
     plan.cull_double = true;
     plan.map = cull_map(census, true);
-    Partition(census, plan.map).write(plan);
+    Partition(census, plan.map, kMaxCellsDouble).write(plan);
   }
   return plan;
 }
@@ -289,21 +344,31 @@ template <class Cull>
 Grid<Cull> make_grid(const LevelPlan& level, const CullMap& map, const Cull min[3],
                      const Cull max[3]) noexcept {
   Grid<Cull> grid;
-  std::copy(min, min + 3, grid.origin);
+  // A body looks at most a row further, so from the world it does not see the outermost rows.
+  const double row = level.bordered ? 2 * level.sub_cell * (1U << level.row_shift) : 0;
+  const double line_end = level.bordered ? 2 * level.cell_x * (level.half_window + 1) : 0;
+  const double border[3] = {line_end, row, row};
+  Cull top[3];
+  for (int k = 0; k < 3; ++k) {
+    grid.origin[k] = min[k] - static_cast<Cull>(border[k]);
+    top[k] = max[k] + static_cast<Cull>(border[k]);
+  }
   grid.cells_per_unit_x = static_cast<Cull>(1 / level.cell_x);
   grid.sub_cells_per_unit = static_cast<Cull>(1 / level.sub_cell);
   grid.max_radius = static_cast<Cull>(level.max_radius * (1 + 0x1p-20));
-  grid.doubtful_below =
-      static_cast<Cull>(level.max_radius * (level.max_radius * kDoubt + 32 * map.radius_pad));
+  // Bodies beyond the world may have larger pads.
+  grid.doubtful_below = level.bodies_beyond
+                            ? std::numeric_limits<Cull>::infinity()
+                            : static_cast<Cull>(doubtful_below(level.max_radius, map.radius_pad));
   grid.short_runs = level.candidates <= kShortRun;
   grid.row_shift = level.row_shift;
   grid.half_window = level.half_window;
-  const auto last = [](Cull top, Cull origin, Cull per_unit) {
-    return std::trunc((top - origin) * per_unit);
+  const auto last = [](Cull end, Cull origin, Cull per_unit) {
+    return std::trunc((end - origin) * per_unit);
   };
-  grid.last_cell_x = last(max[0], min[0], grid.cells_per_unit_x);
-  grid.last_sub_cell_y = last(max[1], min[1], grid.sub_cells_per_unit);
-  grid.last_sub_cell_z = last(max[2], min[2], grid.sub_cells_per_unit);
+  grid.last_cell_x = last(top[0], grid.origin[0], grid.cells_per_unit_x);
+  grid.last_sub_cell_y = last(top[1], grid.origin[1], grid.sub_cells_per_unit);
+  grid.last_sub_cell_z = last(top[2], grid.origin[2], grid.sub_cells_per_unit);
   const double bodies = static_cast<double>(level.bodies);
   const double line = static_cast<double>(grid.last_cell_x) + 1 + level.half_window;
   const double rows = 1U << level.row_shift;
@@ -326,4 +391,4 @@ template Grid<float> make_grid(const LevelPlan&, const CullMap&, const float[3],
 template Grid<double> make_grid(const LevelPlan&, const CullMap&, const double[3],
                                 const double[3]) noexcept;
 
-}  // namespace harpoon::scene
+}  // namespace harpoon::broad

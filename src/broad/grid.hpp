@@ -7,7 +7,7 @@
 #include <cstddef>
 #include <cstdint>
 
-namespace harpoon::scene {
+namespace harpoon::broad {
 
 /// Bodies that are searched together; every block starts at a multiple of this in its level.
 inline constexpr std::size_t kBlockBodies = 256;
@@ -29,7 +29,7 @@ struct Grid {
   Cull origin[3] = {0, 0, 0};
   Cull cells_per_unit_x = 0;
   Cull sub_cells_per_unit = 0;
-  Cull last_cell_x = 0;  ///< largest ix that a body has
+  Cull last_cell_x = 0;  ///< largest ix; bodies beyond the grid are in its outermost cells
   Cull last_sub_cell_y = 0;
   Cull last_sub_cell_z = 0;
   Cull max_radius = 0;  ///< of the level, as used for culling
@@ -51,13 +51,30 @@ struct Grid {
   [[nodiscard]] bool folded() const noexcept { return mask != 0xFFFFFFFFU; }
 };
 
+/// Spheres up to that radius, padded by so much, certainly touch where their distance squared is
+/// below the square of their reach by as much or more, whatever culling rounded (docs/scene.md).
+template <class Number>
+constexpr Number doubtful_below(Number max_radius, Number radius_pad) noexcept {
+  return max_radius * (max_radius * Number(0x1p-13) + 32 * radius_pad);
+}
+
 /// How culling coordinates and radii come from the bodies' own.
 ///   coordinate: Cull(x - origin), radius: Cull(r) * kRadiusScale + radius_pad
+/// Where float coordinates stand for double ones, those of bodies far from the origin are rounded
+/// more: their radii are padded by kFarPad of their largest coordinate where that is more.
 struct CullMap {
   double origin[3] = {0, 0, 0};
   double radius_pad = 0;
 };
 inline constexpr double kRadiusScale = 1.0 + 0x1p-19;
+inline constexpr double kFarPad = 0x1p-22;
+/// Below these distances squares underflow and the collider finds the centres to coincide.
+template <class Real, class Cull>
+inline constexpr double kUnderflowPad = sizeof(Real) + sizeof(Cull) == 16 ? 0x1p-520 : 0x1p-60;
+/// Double coordinates and radii are brought within these before they become float: squares stay
+/// finite, bodies only come closer, and a radius so large reaches everything.
+inline constexpr double kFarCoordinate = 0x1p60;
+inline constexpr double kFarRadius = 0x1p62;
 
 /// Sorted bodies as the search reads them: culling coordinates, one array each. For spheres x, y, z
 /// is the centre. For boxes it is the place in the grid, r half of the longest side, and both
@@ -69,4 +86,30 @@ struct CullArrays {
   Cull *high_x = nullptr, *high_y = nullptr, *high_z = nullptr;
 };
 
-}  // namespace harpoon::scene
+/// Boxes of nodes of trees, one array each.
+template <class Cull>
+struct NodeBoxes {
+  Cull *low_x = nullptr, *low_y = nullptr, *low_z = nullptr;
+  Cull *high_x = nullptr, *high_y = nullptr, *high_z = nullptr;
+};
+
+/// Children of a node, and bodies of a leaf.
+inline constexpr std::uint32_t kTreeWidth = 16;
+inline constexpr std::size_t kMaxTreeLevels = 8;
+
+/// A tree over sorted bodies without pointers: leaf k holds the bodies from begin + 16 k on, node k
+/// of a level those of the nodes from 16 k on of the level below. There are at least two levels,
+/// and at most 16 nodes in the last. Every level begins at a multiple of 16 nodes and is filled up
+/// to one with boxes that meet nothing.
+template <class Cull>
+struct Tree {
+  NodeBoxes<Cull> boxes;
+  std::uint32_t begin = 0, end = 0;  ///< sorted positions
+  Cull max_radius = 0;               ///< of its spheres, as used for culling
+  std::uint32_t levels = 0;
+  std::uint32_t first[kMaxTreeLevels] = {};  ///< node of each level
+  std::uint32_t count[kMaxTreeLevels] = {};
+};
+static_assert(kBlockBodies == std::size_t{kTreeWidth} * kTreeWidth, "a block is a node");
+
+}  // namespace harpoon::broad

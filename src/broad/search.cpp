@@ -1,8 +1,11 @@
-#include "scene/search.hpp"
+#include "broad/search.hpp"
 
 #include <algorithm>
+#include <limits>
 
-namespace harpoon::scene {
+#include "base/out_of_memory.hpp"
+
+namespace harpoon::broad {
 namespace {
 
 /// Smallest list; also how many candidates may pile up beyond the limit before they are counted.
@@ -10,6 +13,8 @@ constexpr std::size_t kMinList = 4096;
 /// Below this many bodies the search is not shared between threads.
 constexpr std::size_t kParallelBodies = 4096;
 constexpr std::size_t kTasksPerThread = 8;
+/// Tests that a candidate which does not touch is worth: it was asked for exactly.
+constexpr std::uint64_t kTestsOfDoubt = 16;
 
 /// Shared by the tasks of one search.
 struct Common {
@@ -19,6 +24,14 @@ struct Common {
   std::atomic<std::uint64_t> kept{0};  ///< contacts in lists that were counted
   std::atomic<bool> over_limit{false};
   std::atomic<bool> out_of_memory{false};
+  std::uint64_t most_tests = 0;
+  std::atomic<std::uint64_t> tests{0};
+  std::atomic<bool> gave_up{false};
+
+  /// A search that takes too many tests does so whatever the order in which they are counted.
+  void count_tests(std::uint64_t more) noexcept {
+    if (tests.fetch_add(more, std::memory_order_relaxed) + more > most_tests) gave_up = true;
+  }
 };
 
 /// Keeps the list of one task: only contacts where they are asked for, only pairs that count, none
@@ -41,7 +54,9 @@ class Collector : public RoomMaker {
   /// After a block, whose candidates may be doubtful.
   void settle(Candidates& list, bool doubtful) noexcept {
     if (doubtful && common_.kind == SearchRule::Kind::touching_spheres) {
+      const std::size_t candidates = list.count;
       kernels_.keep_hits(bodies_.spheres, bodies_.ids, settled_, list);
+      common_.count_tests(kTestsOfDoubt * (candidates - list.count));
     }
     settled_ = list.count;
   }
@@ -56,6 +71,10 @@ class Collector : public RoomMaker {
   /// In the middle of a block: filters, then looks whether the limit has been passed where there
   /// are so many, then grows.
   void make(Candidates& list) noexcept {
+    if (common_.gave_up) {
+      list.count = settled_ = filtered_ = counted_ = 0;
+      return;
+    }
     settle(list, true);
     drop_filtered(list);
     if (list.count <= list.capacity / 2) return;
@@ -117,8 +136,14 @@ class Collector : public RoomMaker {
 template <class Real, class Cull>
 class Blocks {
  public:
-  explicit Blocks(const Ordered<Real, Cull>& bodies) noexcept : levels_(bodies.levels) {
-    for (std::size_t l = 0; l < levels_; ++l) add(l, bodies.grids[l].begin, bodies.grids[l].end);
+  explicit Blocks(const Ordered<Real, Cull>& bodies) noexcept
+      : levels_(bodies.levels + bodies.tree_count) {
+    for (std::size_t l = 0; l < bodies.levels; ++l) {
+      add(l, bodies.grids[l].begin, bodies.grids[l].end);
+    }
+    for (std::size_t t = 0; t < bodies.tree_count; ++t) {
+      add(t, bodies.trees[t].begin, bodies.trees[t].end);
+    }
     const auto scanned = static_cast<std::uint32_t>(bodies.bodies);
     add(levels_, scanned, scanned + static_cast<std::uint32_t>(bodies.scanned));
   }
@@ -150,9 +175,17 @@ class Blocks {
   }
 
   std::size_t levels_;
-  std::array<Range, kRadiusClasses + 1> ranges_ = {};
+  std::array<Range, std::max(kRadiusClasses, kMaxTrees) + 1> ranges_ = {};
   std::size_t count_ = 0;
 };
+
+/// Of scanned spheres and those in trees: they may be anywhere, so there is none where double
+/// coordinates have become float.
+template <class Real, class Cull>
+Cull largest_pad() noexcept {
+  return sizeof(Cull) < sizeof(Real) ? std::numeric_limits<Cull>::infinity()
+                                     : static_cast<Cull>(kUnderflowPad<Real, Cull>);
+}
 
 }  // namespace
 
@@ -168,6 +201,12 @@ std::optional<Error> search(const Means& means, const Ordered<Real, Cull>& bodie
   if (memory.lists.size() < tasks) memory.lists.resize(tasks);
   memory.used = tasks;
   Common common{limit, limit / tasks, rule.kind};
+  common.most_tests = bodies.tree_count != 0 ? std::numeric_limits<std::uint64_t>::max()
+                                             : kMostTests * (bodies.bodies + bodies.scanned);
+  memory.tests_in_vain = 0;
+  const std::uint64_t crowd = bodies.most_in_bucket;
+  memory.gave_up = bodies.tree_count == 0 && crowd * crowd / 2 > common.most_tests;
+  if (memory.gave_up) return std::nullopt;
   const auto scanned = static_cast<std::uint32_t>(bodies.bodies);
   const SearchJob<Cull> job{bodies.grids.data(),
                             bodies.levels,
@@ -175,7 +214,9 @@ std::optional<Error> search(const Means& means, const Ordered<Real, Cull>& bodie
                             scanned,
                             scanned + static_cast<std::uint32_t>(bodies.scanned),
                             rule.judge,
-                            rule.judge_touching};
+                            rule.judge_touching,
+                            bodies.tree_count != 0 ? bodies.trees.data() : nullptr,
+                            largest_pad<Real, Cull>()};
   const auto kernel = rule.kind == SearchRule::Kind::boxes
                           ? kernels.template cull<Cull>().search_boxes
                           : kernels.template cull<Cull>().search;
@@ -189,13 +230,15 @@ std::optional<Error> search(const Means& means, const Ordered<Real, Cull>& bodie
     }
     const auto ended = [&] {
       return common.out_of_memory.load(std::memory_order_relaxed) ||
+             common.gave_up.load(std::memory_order_relaxed) ||
              (rule.kind == SearchRule::Kind::near_spheres &&
               common.over_limit.load(std::memory_order_relaxed));
     };
     const auto each = [&](std::size_t level, std::uint32_t begin, std::uint32_t end) {
       if (!ended()) {
         const SearchResult found = kernel(job, level, begin, end, task.list, collector);
-        task.tests += found.tests;
+        task.tests += found.tests + found.scan_tests;
+        common.count_tests(found.tests);
         collector.settle(task.list, found.doubtful);
       }
     };
@@ -203,7 +246,11 @@ std::optional<Error> search(const Means& means, const Ordered<Real, Cull>& bodie
     collector.finish(task.list);
   });
   if (error) return error;
-  if (common.out_of_memory) return Error{Errc::out_of_memory, "out of memory"};
+  if (common.out_of_memory) return out_of_memory();
+  memory.gave_up = common.gave_up;
+  // How many were begun when the limit was passed depends on the threads, the limit does not.
+  memory.tests_in_vain = common.most_tests;
+  if (memory.gave_up) return std::nullopt;
   std::uint64_t total = 0;
   for (std::size_t t = 0; t < tasks; ++t) {
     total += memory.lists[t].list.count + memory.lists[t].dropped;
@@ -227,4 +274,4 @@ template std::optional<Error> search(const Means&, const Ordered<double, double>
                                      const SearchRule&, const PairFilter&, std::uint64_t,
                                      SearchMemory&);
 
-}  // namespace harpoon::scene
+}  // namespace harpoon::broad

@@ -1,4 +1,4 @@
-#include "scene/buffer.hpp"
+#include "base/buffer.hpp"
 
 #include <cstring>
 #include <new>
@@ -8,7 +8,7 @@
 #include <sys/mman.h>
 #endif
 
-namespace harpoon::scene {
+namespace harpoon {
 namespace {
 
 constexpr std::size_t kCacheLine = 64;
@@ -78,4 +78,4 @@ void Buffer::release() noexcept {
   bytes_ = 0;
 }
 
-}  // namespace harpoon::scene
+}  // namespace harpoon

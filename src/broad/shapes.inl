@@ -124,7 +124,9 @@ struct SphereShape {
   template <class D>
   static HWY_INLINE hn::Vec<D> reach(D d, const CullArrays<Cull>& bodies, std::uint32_t i,
                                      const hn::Vec<D>& largest) {
-    return hn::Add(hn::LoadU(d, bodies.r + i), largest);
+    // Bodies of finer levels are no larger; only the pad of one far away may be, and along an axis
+    // where it is far its window ends in the last cell all the same.
+    return hn::Add(hn::Min(hn::LoadU(d, bodies.r + i), largest), largest);
   }
   /// How far a coordinate is outside of [low, high]; 0 within.
   static HWY_INLINE Vec outside(const Vec& v, const Vec& low, const Vec& high) {

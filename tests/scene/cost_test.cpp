@@ -3,6 +3,7 @@
 
 #include <gtest/gtest.h>
 
+#include <array>
 #include <memory>
 #include <string>
 
@@ -164,6 +165,31 @@ TYPED_TEST(CostTest, OddWorldsEqualBruteForce) {
         << world.name;
   });
   EXPECT_GT(contacts, 10000U);
+}
+
+// Bodies of two sizes that touch far beyond the world, each pair beside it along two axes: there
+// the larger one is looked for where it is, however coarse float is along the third.
+TYPED_TEST(CostTest, PairsFarAwayAreFoundBesideTheWorld) {
+  using Real = TypeParam;
+  for (const double far : {1e5, 1e9, 1e12}) {
+    Dice dice(kSeed);
+    std::vector<SphereOf<Real>> spheres;
+    const auto at = [&] { return dice.uniform(0, 60); };
+    for (int k = 0; k < 2000; ++k) {
+      spheres.push_back(sphere<Real>(at(), at(), at(), k % 20 == 0 ? 3 : 0.3));
+    }
+    for (int k = 0; k < 60; ++k) {
+      std::array<double, 3> p = {at(), at(), at()};
+      p[static_cast<std::size_t>(k) % 3] = k % 2 == 0 ? far : -far;
+      spheres.push_back(sphere<Real>(p[0], p[1], p[2], 3));
+      spheres.push_back(sphere<Real>(p[0] + 0.2, p[1] + 1, p[2] - 0.5, 0.3));
+    }
+    const auto expected = brute_force(view(spheres));
+    std::vector<BodyContactOf<Real>> out(expected.size());
+    const auto report = detect(*this->workspace_, BodiesOf<Real>(view(spheres)), std::span(out));
+    ASSERT_TRUE(report.ok()) << report.error().message;
+    EXPECT_TRUE(same_bits(sorted_by_ids(out), expected)) << far;
+  }
 }
 
 // A settled bed and one body that fell off the table and never stopped, at any distance.

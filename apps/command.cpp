@@ -23,6 +23,7 @@ constexpr const char* kExitCodes =
     "  2    usage: unknown command or option, bad value\n"
     "  3    environment: a file, device, package or memory that is not there, or fails\n"
     "  4    data: a file that is malformed, or of another kind\n"
+    "  5    run --require: no call of ODE was served\n"
     "  129, 130, 143  ended by SIGHUP, SIGINT or SIGTERM; no file is half-written\n\n"
     "Environment:\n"
     "  NO_COLOR  when set and not empty, no colours are used\n\n"

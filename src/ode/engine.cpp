@@ -165,7 +165,7 @@ class EngineOf final : public Engine {
   [[nodiscard]] bool is_comparable(const Record& record) const;
   template <class Replay>
   [[nodiscard]] bool run(Frame<Real>& frame, const VerifiedCall<Real>* verified,
-                         Replayer<Real>& replayer, const Replay& replay);
+                         const Replay& replay);
   /// A dSpaceCollide2: one geom against all of a space, or each geom of another space.
   struct ScanCall {
     dxGeom *o1, *o2;  ///< its arguments
@@ -312,13 +312,13 @@ bool EngineOf<Real>::is_comparable(const Record& record) const {
 template <class Real>
 template <class Replay>
 bool EngineOf<Real>::run(Frame<Real>& frame, const VerifiedCall<Real>* verified,
-                         Replayer<Real>& replayer, const Replay& replay) {
+                         const Replay& replay) {
   std::optional<Verifier<Real>> verifier;
   if (verified != nullptr && parts_.differs) {
     std::optional<WalkStack> stack = WalkStack::take();
     if (!stack) return false;
     verifier.emplace(ode_, *verified, frame.stock, *std::move(stack), parts_.differs);
-    replayer.verifier = &*verifier;
+    frame.verifier = &*verifier;
   }
   replay();
   if (verifier) {
@@ -345,9 +345,9 @@ bool EngineOf<Real>::replay_record(Record& record, LiveCheck live, void* data,
   const VerifiedCall<Real> verified{
       "dSpaceCollide", record, options_.policy,
       record.kind != geom_class::kQuadtreeSpace && record.mirror_valid};
-  Replayer<Real> replayer{reader_, data, callback};
+  const Replayer<Real> replayer{reader_, data, callback};
   Statistics::add(statistics_.pairs, record.pairs.size());
-  if (!run(frame, is_comparable(record) ? &verified : nullptr, replayer,
+  if (!run(frame, is_comparable(record) ? &verified : nullptr,
            [&] { replayer.replay(frame, record); })) {
     return false;
   }
@@ -571,8 +571,8 @@ bool EngineOf<Real>::answer_scan(const ScanCall& call, void* data, NearCallback*
   frame.looped = call.looped;
   frame.origin = record.get();
   const VerifiedCall<Real> verified{"dSpaceCollide2", *record, options_.policy, false};
-  Replayer<Real> replayer{reader_, data, callback};
-  if (!run(frame, verifies ? &verified : nullptr, replayer,
+  const Replayer<Real> replayer{reader_, data, callback};
+  if (!run(frame, verifies ? &verified : nullptr,
            [&] { loop(call, first, frame, replayer, pairs); })) {
     return false;
   }

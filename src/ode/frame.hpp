@@ -13,6 +13,7 @@
 
 #include "ode/space_record.hpp"
 #include "ode/stock_walk.hpp"
+#include "ode/verify.hpp"
 
 namespace harpoon::ode {
 
@@ -80,6 +81,7 @@ struct Frame {
   dxSpace* looped = nullptr;
   /// dSpaceCollide2: the pairs of the probe.
   std::span<GeomPair> scanned = {};
+  Verifier<Real>* verifier = nullptr;  ///< sees every pair before the callback does
   /// What is remembered of the space.
   SpaceRecord<Real>* origin = nullptr;
   /// libode has all bounds and flags of this space from the start, and reads filters only: SAP.
@@ -102,8 +104,9 @@ struct Frame {
   dxGeom* row = nullptr;       ///< o1 of the last pair that was looked at closer
   bool row_is_enabled = true;  ///< it was when its row began
   Course course = Course::own;
-  std::optional<StockWalk<Real>> walk;
-  std::vector<IndexPair> rest;  ///< of the record's mirror
+  StockWalk<Real>* walk = nullptr;
+  std::optional<StockWalk<Real>> own_walk;  ///< where `walk` is no verifier's
+  std::vector<IndexPair> rest;              ///< of the record's mirror
 
   /// A geom is gone: pairs that it is in are left out.
   void forget(const dxGeom* geom) {

@@ -153,7 +153,7 @@ void Handover<Real>::hand_over(Frame<Real>& frame) const {
           "out of memory; what callbacks change is seen from the next collision on");
     }
   }
-  frame.walk.reset();
+  frame.own_walk.reset();
   frame.course = Course::kept;
   frame.toggled = true;
 }
@@ -163,8 +163,12 @@ template <class Real>
 bool Handover<Real>::start_walk(Frame<Real>& frame) const {
   const GeomPair pair{frame.o1, frame.o2};
   if (frame.has_begun && pair.o1 == nullptr) return false;
-  frame.walk.emplace(frame.stock, std::move(frame.stack));
-  if (frame.has_begun) {
+  frame.walk = frame.verifier != nullptr ? frame.verifier->give_walk() : nullptr;
+  if (frame.walk == nullptr) {
+    frame.own_walk.emplace(frame.stock, std::move(frame.stack));
+    frame.walk = &*frame.own_walk;
+  }
+  if (frame.has_begun && frame.own_walk) {
     // On its way to the pair at hand libode is to see the flags that it saw the first time.
     OtherFlags<Real> flags(ode);
     if (frame.live == LiveCheck::none && frame.record->mirror_valid) {

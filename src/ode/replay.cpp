@@ -12,8 +12,8 @@ constexpr std::size_t kPrefetchDistance = 6;
 
 template <class Real>
 void Replayer<Real>::deliver(Frame<Real>& frame, GeomPair pair) const {
-  if (verifier != nullptr) [[unlikely]]
-    verifier->expect(pair);
+  if (frame.verifier != nullptr) [[unlikely]]
+    frame.verifier->expect(pair);
   frame.o1 = pair.o1;
   frame.o2 = pair.o2;
   frame.has_begun = true;

@@ -12,7 +12,6 @@
 #include "ode/frame.hpp"
 #include "ode/libode.hpp"
 #include "ode/space_record.hpp"
-#include "ode/verify.hpp"
 
 namespace harpoon::ode {
 
@@ -21,7 +20,6 @@ struct Replayer {
   const GeomReader<Real>& reader;
   void* data;
   NearCallback* callback;
-  Verifier<Real>* verifier = nullptr;  ///< sees every pair before the callback does
 
   /// The pairs of a record, with contacts from its batch.
   void replay(Frame<Real>& frame, SpaceRecord<Real>& record) const;

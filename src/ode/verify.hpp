@@ -45,6 +45,11 @@ class Verifier {
   void finish() { compare(nullptr); }
   /// The space is gone.
   void abandon();
+  /// The walk, at the pair that the callback sees, for a call that is to go on by it; null when it
+  /// has ended. There is nothing to compare then: two walks would change things for each other.
+  [[nodiscard]] StockWalk<Real>* give_walk() {
+    return std::exchange(ended_, true) ? nullptr : &walk_;
+  }
   [[nodiscard]] std::uint64_t compared() const { return compared_; }
 
  private:

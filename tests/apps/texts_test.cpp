@@ -106,8 +106,8 @@ TEST(ExitCodes, AreTheSameInHelpManualDocumentAndCode) {
   EXPECT_EQ(codes, codes_in(document.substr(table, document.find("\n## ", table + 1) - table)));
   const std::string page = manual_page(declared.info, "1.2.3");
   EXPECT_EQ(codes, codes_in(page.substr(page.find("Exit codes:"))));
-  for (const ExitCode code :
-       {ExitCode::ok, ExitCode::failure, ExitCode::usage, ExitCode::environment, ExitCode::data}) {
+  for (const ExitCode code : {ExitCode::ok, ExitCode::failure, ExitCode::usage,
+                              ExitCode::environment, ExitCode::data, ExitCode::not_served}) {
     EXPECT_TRUE(codes.contains(static_cast<int>(code)));
   }
   for (const int signal : {SIGHUP, SIGINT, SIGTERM}) EXPECT_TRUE(codes.contains(128 + signal));

@@ -156,6 +156,7 @@ Service* make(const ServiceRequest& request, Options options) {
             .log = [](LogLevel level, std::string_view line) { write_log_line(level, line); },
             .differs = &stop,
             .before_first_space = [&watch] { watch.watch_moves(); },
+            .without_spaces = [&watch] { watch.ignore_moves(); },
             .before_first_frame = [&watch] { watch.watch_contacts(); }});
   if (!engine) return nullptr;
   watch.engine.store(engine->get(), std::memory_order_release);

@@ -143,6 +143,7 @@ class EngineOf final : public Engine {
   Record* find_or_make(dxSpace* space, int kind);
   Record* put(dxSpace* space, std::shared_ptr<Record> record);
   void begin_to_listen();
+  void stop_listening(Record& record);
   void expect_frames();
   /// Where moves are not told of, what callbacks move cannot be seen: dSpaceCollide2 does not lock
   /// its probe, and some builds lock nothing.
@@ -277,6 +278,15 @@ void EngineOf<Real>::begin_to_listen() {
   listens_.store(true, std::memory_order_release);
 }
 
+/// The only space is libode's for a while: in large ones that all move, to hear of it shows.
+template <class Real>
+void EngineOf<Real>::stop_listening(Record& record) {
+  const bool is_left = record.sap.has_value() && !record.sap_is_ours;
+  if (!is_left || table_.size() != 1 || open_frames != 0 || !parts_.without_spaces) return;
+  listens_.store(false, std::memory_order_release);
+  parts_.without_spaces();
+}
+
 template <class Real>
 SpaceRecord<Real>* EngineOf<Real>::find_or_make(dxSpace* space, int kind) {
   begin_to_listen();
@@ -370,8 +380,7 @@ bool EngineOf<Real>::answer_in_order(Record& record, void* data, NearCallback* c
   const std::shared_ptr<Record> alive = table_.hold(record.space);
   const Entry entry(record);
   if (!entry.entered()) return false;
-  // A stock SAP space does not know what it was not asked.
-  if (!record.sap_is_ours && record.leaves_call_to_stock()) return false;
+  if (record.kind != geom_class::kSapSpace && record.leaves_call_to_stock()) return false;
   if (entry.alone()) {
     try {
       if (!prepare(record)) return false;
@@ -459,9 +468,10 @@ void EngineOf<Real>::record_or_replay(Record& record, void* data, NearCallback* 
 /// The record of a space whose dSpaceCollide is not libode's alone, or null.
 template <class Real>
 SpaceRecord<Real>* EngineOf<Real>::record_to_collide(dxSpace* space, int kind) {
-  const Record* const sap =
+  Record* const sap =
       kind == geom_class::kSapSpace && !table_.empty() ? table_.find(space) : nullptr;
   const bool is_ours = sap != nullptr && sap->sap.has_value() && sap->sap_is_ours;
+  if (sap != nullptr && !is_ours && sap->leaves_call_to_stock()) return nullptr;
   if (!is_space_class(kind) || (!is_ours && ode_.space_get_num_geoms(space) < min_geoms(kind))) {
     return nullptr;
   }
@@ -494,6 +504,7 @@ void EngineOf<Real>::space_collide(dxSpace* space, void* data, NearCallback* cal
     record_or_replay(*record, data, callback);
   } else if (!answer_in_order(*record, data, callback)) {
     record->mark_changed();
+    stop_listening(*record);
     leave_to_stock(space, data, callback);
   }
 }

@@ -72,6 +72,9 @@ struct EngineParts {
   /// Called before the first space is looked at: until then the engine need not hear of any
   /// `moved`. May be empty.
   std::function<void()> before_first_space = {};
+  /// Called when the engine need not hear of any `moved` until it calls `before_first_space` again.
+  /// May be empty.
+  std::function<void()> without_spaces = {};
   /// Called before callbacks are first called for pairs of the engine's own: until then it need not
   /// hear of any `collide`. May be empty.
   std::function<void()> before_first_frame = {};

@@ -1,6 +1,8 @@
 #include "ode/geom_layout.hpp"
 
+#include <algorithm>
 #include <bit>
+#include <iterator>
 #include <optional>
 
 namespace harpoon::ode {
@@ -13,7 +15,8 @@ constexpr unsigned long kSomeBits = 0x5A17C0DE, kOtherBits = 0x3C0FFEE1;
 /// Offsets are looked for in steps of the value's size, behind the pointer to virtual functions.
 template <class Value, class Expected>
 std::optional<std::uint16_t> find(const dxGeom* geom, const Expected& expected) {
-  for (std::uint16_t offset = sizeof(void*); offset < kMostBytes; offset += sizeof(Value)) {
+  for (std::uint16_t offset = sizeof(std::uintptr_t); offset < kMostBytes;
+       offset += sizeof(Value)) {
     if (GeomLayout::at<Value>(geom, offset) == expected) return offset;
   }
   return std::nullopt;
@@ -57,15 +60,20 @@ struct Specimens {
   dxGeom *const sphere, *const point, *const offset_sphere;
 };
 
+template <class Real>
+bool are_same(const BoundsBox<Real>& a, const BoundsBox<Real>& b) {
+  return std::equal(std::begin(a.v), std::end(a.v), std::begin(b.v));
+}
+
 /// The first offset of six numbers that are the geom's bounds.
 template <class Real>
 std::optional<std::uint16_t> find_bounds(const LibodeOf<Real>& ode, dxGeom* geom) {
   BoundsBox<Real> box;
   ode.geom_get_aabb(geom, box.v);
-  for (std::uint16_t offset = sizeof(void*); offset < kMostBytes; offset += sizeof(Real)) {
+  for (std::uint16_t offset = sizeof(std::uintptr_t); offset < kMostBytes; offset += sizeof(Real)) {
     if (GeomLayout::at<Real>(geom, offset) != box.v[0]) continue;
     const auto found = GeomLayout::at<BoundsBox<Real>>(geom, offset);
-    if (std::memcmp(&found, &box, sizeof box) == 0) return offset;
+    if (are_same(found, box)) return offset;
   }
   return std::nullopt;
 }
@@ -78,7 +86,7 @@ bool find_offsets(const Specimens<Real>& all, GeomLayout& layout) {
   };
   const dxGeom* const sphere = all.sphere;
   return take(layout.type, find<std::int32_t>(as_geom(all.space), geom_class::kSimpleSpace)) &&
-         take(layout.body, find<dxBody*>(all.offset_sphere, all.body)) &&
+         take(layout.body, find<const void*>(all.offset_sphere, all.body)) &&
          take(layout.pose, find<const Real*>(sphere, all.ode.geom_get_position(all.sphere))) &&
          take(layout.bounds, find_bounds(all.ode, all.sphere)) &&
          take(layout.category, find<unsigned long>(sphere, kSomeBits)) &&
@@ -126,11 +134,10 @@ bool holds(const Specimens<Real>& all, const GeomLayout& layout) {
   const auto found = GeomLayout::at<BoundsBox<Real>>(all.sphere, layout.bounds);
   const auto* const pose = GeomLayout::at<const Real*>(all.offset_sphere, layout.pose);
   return GeomLayout::at<std::int32_t>(all.sphere, layout.type) == geom_class::kSphere &&
-         GeomLayout::at<dxBody*>(all.sphere, layout.body) == nullptr &&
+         GeomLayout::at<const void*>(all.sphere, layout.body) == nullptr &&
          GeomLayout::at<unsigned long>(all.sphere, layout.category) == kOtherBits &&
          GeomLayout::at<unsigned long>(all.sphere, layout.collide) == kSomeBits &&
-         GeomLayout::at<Real>(all.point, layout.radius) == 0 &&
-         std::memcmp(&found, &box, sizeof box) == 0 &&
+         GeomLayout::at<Real>(all.point, layout.radius) == 0 && are_same(found, box) &&
          pose == ode.geom_get_position(all.offset_sphere);
 }
 

@@ -44,8 +44,9 @@ struct GeomReader {
     }
   }
   [[nodiscard]] const dxBody* body_of(dxGeom* geom) const {
-    return layout.is_known ? GeomLayout::at<const dxBody*>(geom, layout.body)
-                           : ode.geom_get_body(geom);
+    return layout.is_known
+               ? static_cast<const dxBody*>(GeomLayout::at<const void*>(geom, layout.body))
+               : ode.geom_get_body(geom);
   }
   [[nodiscard]] unsigned long category_of(dxGeom* geom) const {
     return layout.is_known ? GeomLayout::at<unsigned long>(geom, layout.category)

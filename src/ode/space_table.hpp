@@ -21,6 +21,8 @@ class SpaceTable {
 
   [[nodiscard]] bool empty() const { return size_.load(std::memory_order_relaxed) == 0; }
 
+  [[nodiscard]] std::size_t size() const { return size_.load(std::memory_order_relaxed); }
+
   /// The record of a space or null. It lives until the space is erased, or longer for those who
   /// hold it by `hold`.
   Record* find(dxSpace* space) {

@@ -40,7 +40,7 @@ class Overlaps {
   template <class Cull>
   Result<broad::BoxOrder> run_in_grids() {
     broad::OrderedBoxes<Real, Cull> ordered;
-    const auto done =
+    auto done =
         broad::order_boxes(means_, source_, state_.boxes, state_.order, report_.excluded, ordered);
     if (done.ok() && *done == broad::BoxOrder::done) {
       if (auto error = find_and_write(ordered)) return *std::move(error);

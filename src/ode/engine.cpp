@@ -129,6 +129,7 @@ class EngineOf final : public Engine {
     const EngineOf* engine = nullptr;
     dxSpace* space = nullptr;
     std::uint64_t looks = 0;
+    bool all = false;  ///< of no geom at all: no other space is known
   };
   static Settled& last_settled() {
     static thread_local Settled settled;
@@ -785,13 +786,12 @@ int EngineOf<Real>::collide(dxGeom* o1, dxGeom* o2, int flags, void* contact, in
 /// known to have changed beyond counting: then nothing is to be noted until the space is looked at.
 template <class Real>
 void EngineOf<Real>::moved(dxGeom* geom) {
-  if (!listens_.load(std::memory_order_relaxed)) return;
   const Settled& settled = last_settled();
+  const bool holds =
+      settled.looks == looks_.load(std::memory_order_relaxed) && settled.engine == this;
+  if (holds && settled.all) return;
   dxSpace* const home = ode_.geom_get_space(geom);
-  if (settled.space == home && settled.looks == looks_.load(std::memory_order_relaxed) &&
-      settled.engine == this) {
-    return;
-  }
+  if (holds && settled.space == home) return;
   note_move(geom, home);
 }
 
@@ -803,16 +803,18 @@ void EngineOf<Real>::changing(dxGeom* geom, Change change) {
 
 template <class Real>
 void EngineOf<Real>::note_move(dxGeom* geom, dxSpace* home) {
+  if (!listens_.load(std::memory_order_relaxed)) return;
   const std::uint64_t looks = looks_.load(std::memory_order_relaxed);
-  bool is_settled = open_frames == 0;
+  bool is_settled = open_frames == 0, is_known = false;
   for (dxSpace* space = home; space != nullptr; space = ode_.geom_get_space(geom)) {
     if (Record* record = table_.find(space)) {
       record->note_moved(geom);
+      is_known = true;
       is_settled = is_settled && record->changed_widely.load(std::memory_order_relaxed);
     }
     geom = as_geom(space);
   }
-  if (is_settled) last_settled() = {this, home, looks};
+  if (is_settled) last_settled() = {this, home, looks, is_known && table_.size() == 1};
 }
 
 template <class Real>
